@@ -88,6 +88,9 @@ proxy:
 	command -v $$each >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq $$each; } \
 	|| echo "$$each is not installed: its test will skip"; done
+	@[ -e /usr/lib/apache2/modules/mod_auth_openidc.so ] \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get install -y -qq libapache2-mod-auth-openidc; } \
+	|| echo "mod_auth_openidc is not installed: its test will skip"
 
 # Redis for the tests of votes, half of which are skipped without it.
 redis:

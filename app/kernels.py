@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from functools import cache
 from pathlib import Path
 
@@ -30,6 +31,8 @@ def compile_beside() -> None:
     no effect."""
     if log.level == logging.NOTSET:  # under panel serve, which shows only warnings
         log.setLevel(logging.INFO)
+    # Compiled kernels divide by 0 without a word, and so do those that run as Python.
+    warnings.filterwarnings("ignore", category=RuntimeWarning, module="tippe_core")
     if reason := why_not():
         log.info("kernels run as Python, some hundred times slower than compiled: %s", reason)
     elif not kept.complete(kept.folder()):

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import matplotlib
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 from claims import ROWS
 
@@ -143,6 +144,10 @@ def test_a_script_of_the_gallery_draws_what_its_link_opens(path):
     for key, codec in ((key, NAMES[key].codec) for key in texts):
         codec.value(texts[key])
     assert explorer.scene.top.a == pytest.approx(Top.paper().a, abs=3e-4)
+    if "start" in found:  # a State, of a hand that gives the spin in turns a second and the tilt in degrees
+        turns = found["start"].omega3 * (9.81 / 0.016) ** 0.5 / (2 * np.pi)
+        assert float(texts["spin"]) == pytest.approx(turns) and float(texts["mu_k"]) == 0.3 and texts["stem"] == "no"
+        assert float(texts["tilt"]) == pytest.approx(np.degrees(found["start"].theta))
     for name, key in (("K_J", "KJ"), ("K_R", "KR"), ("E", "E")):
         if key in texts:
             assert float(texts[key]) == found[name] == pytest.approx(getattr(explorer.scene.constants, name))

@@ -103,18 +103,20 @@ def of_kind(level, kind):
 
 def test_where_runs_and_formula_disagree(level):
     found = of_kind(level, "lies")
-    i, j = level.cell(*found.one)
+    why, _, one = found.reasons[0]
+    i, j = level.cell(*one)
     assert 0 < found.count < found.allowed < level.end.size and level.end[i, j] not in ("stem", "inverted")
-    assert found.why == "falls" and found.low <= found.one[0] <= found.high
+    assert why == "falls" and found.low <= one[0] <= found.high
+    assert sum(count for _, count, _ in found.reasons) == found.count
     short = of_kind(last(Map(cells=9, seconds=0.5)), "lies")
-    assert short.why == "time" and short.count > found.count
+    assert short.reasons[0].why == "time" and short.count > found.count
 
 
 def test_dry_friction_keeps_upright_what_may_not_stay():
     """Coulomb's law catches the paper's top, though its upright spin is unstable beyond 6.9 rev/s."""
     found = of_kind(last(Map(body="The paper's tippe top", law="coulomb", across_range=(10.0, 30.0),
                              up_range=(1.0, 8.0), cells=3, seconds=2.0)), "stays")  # fmt: skip
-    assert found.why == "sticks" and found.count > 0
+    assert found.reasons[0].why == "sticks" and found.count > 0
 
 
 def test_the_line_of_painleves_limit_is_where_runs_are_refused():

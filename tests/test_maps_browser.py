@@ -107,6 +107,39 @@ def test_a_box_looks_closer_and_undo_goes_back(page):
     wait(page, lambda: page.evaluate(RANGE) == before)
 
 
+def swipe(page, start, by, steps=8):
+    """A finger; the browser decides what it does."""
+    hand = page.context.new_cdp_session(page)
+    for k, kind in enumerate(["touchStart", *["touchMove"] * steps]):
+        points = [{"x": start[0] + by[0] * k / steps, "y": start[1] + by[1] * k / steps}]
+        hand.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        page.evaluate("() => new Promise(requestAnimationFrame)")  # as often as a screen tells of a finger
+    hand.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def test_a_finger_moves_the_bead_and_scrolls_elsewhere(server, chromium):
+    """A swipe that scrolls the page does not look closer as well, but the button does."""
+    phone = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page = phone.new_page()
+    visit = Visit(page, f"{server}?v=1&tab=maps&map=spin_5_50_tilt_1_40_contensou_2_6_9", whole=False)
+    page.get_by_role("status").filter(has_text="28.6 rev/s, 5.7").wait_for()
+    page.wait_for_function(f"() => ({SIDE})() == 9")
+    before = page.evaluate(RANGE)
+    above = page.evaluate(PIXEL, ["maps", 40.0, 20.0])
+    swipe(page, above, (-60, -120))
+    wait(page, lambda: page.evaluate(PIXEL, ["maps", 40.0, 20.0])[1] < above[1] - 20)  # it scrolled
+    x, y = page.evaluate(BEAD)
+    assert (x, y) == (28.6, 5.7)
+    swipe(page, page.evaluate(PIXEL, ["maps", x, y]), (-80, -80))
+    wait(page, lambda: page.evaluate(BEAD)[0] < x - 5 and page.evaluate(BEAD)[1] > y + 3)
+    page.get_by_role("status").filter(has_text="rev/s, 1").wait_for()  # its run, at more than 9 degrees
+    assert page.evaluate(RANGE) == before
+    page.get_by_role("button", name="Look closer here").tap()
+    wait(page, lambda: abs(page.evaluate(RANGE)[1] - page.evaluate(RANGE)[0] - 15) < 1e-9)
+    phone.close()
+    assert not visit.errors
+
+
 def test_it_fits_a_phone(page):
     page.set_viewport_size({"width": 390, "height": 844})
     page.wait_for_function("() => document.documentElement.scrollWidth <= 390")

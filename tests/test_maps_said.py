@@ -10,11 +10,13 @@ from app.model.maps import steady
 from app.model.maps.body import outline_of
 from app.model.maps.lines import disagreements
 from app.model.maps.maps import UNITS, Map
-from app.model.maps.rates import rates
+from app.model.maps.rates import Power, by_law, rates
 from app.model.maps.solving import Level
-from app.model.maps.steady import Bifurcation, bifurcation, fixed
+from app.model.maps.steady import Bifurcation, at_place, bifurcation, fixed
 from app.model.maps.throw import throw_of
-from tippe_core import PRESETS, State, slide
+from app.tabs.maps.steady import of_powers
+from app.tabs.maps.words import of_reason
+from tippe_core import PRESETS, State, slide, thresholds
 
 LEFT, RIGHT = (0, 0), (0, 2)  # a cell that cannot stand turned over by the formula, and one that can
 
@@ -28,8 +30,8 @@ def told(law, at, end, time_stem=np.nan, hops=0.0):
     ends[at], columns["time_stem"][at], columns["hops"][at] = end, time_stem, hops
     x, y = asked.centres(3)
     found = disagreements(Level(asked=asked, x=x, y=y, end=ends, columns=columns))
-    assert all((each.count, each.one) == (1, (x[at[1]], y[at[0]])) for each in found)
-    return {each.kind: each.why for each in found}
+    assert all(each.count == 1 and each.reasons[0][1:] == (1, (x[at[1]], y[at[0]])) for each in found)
+    return {each.kind: each.reasons[0].why for each in found}
 
 
 @pytest.mark.parametrize(
@@ -44,12 +46,48 @@ def told(law, at, end, time_stem=np.nan, hops=0.0):
         ("contensou", RIGHT, ("moving",), {"lies": "time"}),
         ("contensou", RIGHT, ("leaning",), {"lies": "pivoting"}),
         ("smoothed", RIGHT, ("leaning",), {"lies": "time"}),
-        ("coulomb", RIGHT, ("upright",), {"lies": "time", "stays": "sticks"}),
+        ("coulomb", RIGHT, ("upright",), {"lies": "sticks", "stays": "sticks"}),
+        ("contensou", RIGHT, ("upright",), {"lies": "time", "stays": "time"}),
         ("contensou", RIGHT, ("inverted",), {}),
     ],
 )
 def test_why_a_run_does_otherwise_is_said_by_what_it_did(law, at, run, said):
     assert told(law, at, *run) == said
+
+
+def test_each_reason_is_told_with_the_number_of_its_runs_the_most_frequent_first():
+    asked = Map(cells=3, across_range=(35.0, 50.0))
+    ends, none = np.full((3, 3), "inverted", "<U8"), np.full((3, 3), np.nan)
+    ends[0], ends[1, 1] = "leaning", "moving"
+    x, y = asked.centres(3)
+    (found,) = disagreements(Level(asked=asked, x=x, y=y, end=ends, columns=dict.fromkeys(UNITS, none)))
+    assert (found.kind, found.count, found.allowed, found.low, found.high) == ("lies", 4, 9, x[0], x[2])
+    assert found.reasons == (("pivoting", 3, (x[1], y[0])), ("time", 1, (x[1], y[1])))
+    first, second = (of_reason(found, k, asked) for k in (0, 1))
+    assert first.startswith("In this map, 4 of the 9 runs") and "3 of them: pivoting on the patch" in first
+    assert second == "1 of them: the time is too short."
+    alone = replace(found, count=3, reasons=found.reasons[:1])
+    assert "The reason: pivoting on the patch" in of_reason(alone, 0, asked)
+
+
+def test_what_stays_upright_was_too_short_or_has_lost_its_spin():
+    """The spin that a run without any tilt has left at the end, against the published spin below which it is stable."""
+    said = {}
+    for seconds in (0.02, 4.0):
+        asked = Map(body="The paper's tippe top", cells=3, across_range=(7.0, 8.0), up_range=(1.0, 3.0),
+                    seconds=seconds, values=(("second", 2.0),))  # fmt: skip
+        x, y = asked.centres(3)
+        columns = {name: np.full((3, 3), np.nan) for name in UNITS}
+        level = Level(asked=asked, x=x, y=y, end=np.full((3, 3), "upright"), columns=columns)
+        found = next(each for each in disagreements(level) if each.kind == "stays")
+        said |= {(place, seconds): reason.why for reason in found.reasons for place in [reason.one]}
+    for (place, seconds), why in said.items():
+        cell = replace(asked, seconds=seconds).at(*place)
+        spins = State(1e-9, 0.0, 0.0, cell.state.omega3, vx=0.0, vy=0.0)
+        moved = slide(cell.top, spins, cell.friction, [0.0, cell.t_end])
+        stable = abs(moved.omega[-1, 2]) < thresholds(cell.top).upright.spin
+        assert why == ("pivoting" if stable else "time")
+    assert {*said.values()} == {"pivoting", "time"}
 
 
 def test_the_worst_number_may_be_below_zero():
@@ -103,6 +141,31 @@ def test_small_motions_go_round_as_those_of_a_run_do():
     late = (moved.t > 6 / growth) & (moved.theta < 0.01)
     round_ = np.polyfit(moved.t[late], np.unwrap(moved.phi[late]), 1)[0] / cell.scales.time
     assert np.interp(14.0, upright.spin, upright.turning) == pytest.approx(abs(round_), rel=0.02)
+
+
+def test_small_motions_grow_by_each_law_as_those_of_a_run_do():
+    """Upright, at the spin of the bead; by Coulomb's law the top rolls, and no run grows."""
+    asked = Map(body="Top S", law="viscous", across_range=(12.0, 16.0), values=(("mu", 0.5),))
+    found = {(each.law, each.branch): each for each in by_law(asked, at_place(asked, (14.0, 5.7)))}
+    assert len(found) == 12 and abs(found["coulomb", "upright"].growth) < 1e-6
+    for law in ("viscous", "smoothed", "contensou"):
+        assert found[law, "inverted"].growth < 0, law
+        cell = replace(asked, law=law).at(14.0, 5.7)
+        spin = steady.launch(cell) * 14.0 / (cell.top.I3 * (1 - cell.top.a))
+        growth = found[law, "upright"].growth * cell.scales.time
+        moved = slide(cell.top, State(1e-8, 0, 0, spin, vx=0.0, vy=0.0), cell.friction,
+                      np.linspace(0, 8 / growth, 2000), rtol=1e-11)  # fmt: skip
+        late = moved.t > 6 / growth
+        left = 14.0 * moved.jellett[late].mean() / moved.jellett[0]  # pivoting takes some of the spin
+        told = {(each.law, each.branch): each for each in by_law(asked, at_place(asked, (left, 5.7)))}
+        grown = np.polyfit(moved.t[late], np.log(moved.theta[late]), 1)[0] / cell.scales.time
+        assert grown == pytest.approx(told[law, "upright"].growth, rel=0.03), law
+
+
+def test_too_few_runs_for_a_power_are_not_called_none():
+    none, few, good = (Power("viscous", "spin", np.nan, np.nan, runs) for runs in (0, 2, 9))
+    said = [of_powers((each,)) for each in (none, few, good._replace(power=-0.5, error=0.04))]
+    assert "none turns over" in said[0] and "too few turn over" in said[1] and "−0.50 ± 0.04" in said[2]
 
 
 @pytest.mark.parametrize("up", ["stem", "rounding"])

@@ -145,6 +145,26 @@ def test_a_box_looks_closer_and_the_whole_range_comes_back(tab):
     assert tab.asked.across_range == (5.0, 50.0)
 
 
+def test_the_button_looks_closer_around_the_bead_and_never_beyond_the_map(tab):
+    tab.go(20.0, 39.0)
+    tab.settings.look_at(*tab._around())
+    assert tab.asked.across_range == pytest.approx((12.5, 27.5)) and tab.asked.up_range == pytest.approx((27.0, 40.0))
+    assert tab.choice.place == [20.0, 39.0]
+
+
+def test_as_many_reasons_as_there_are_can_be_gone_to():
+    tab = Maps()
+    shown = [row.visible for row in tab.show_rows]
+    assert 2 < sum(shown) == len(tab._ones) and shown == sorted(shown, reverse=True)
+    assert (
+        "630 of the 1,465 runs" in tab.whys[0].object and "561 of them: they come onto the stem" in tab.whys[0].object
+    )
+    assert tab.whys[1].object.startswith("69 of them: the stem throws them up")
+    for one in tab._ones:
+        i, j = tab.level.cell(*one)
+        assert (tab.level.x[j], tab.level.y[i]) == one
+
+
 def test_the_map_is_in_the_address_and_undone():
     tab = Maps()
     keep = Keep()

@@ -39,7 +39,9 @@ def fitted(data):
     problem = Problem(TRUE, data)
     _, x = problem.followed(np.array([TRUE.values[name] for name in TRUE.free]), 30, exactly=True)
     values = dict(zip(TRUE.free, map(float, x), strict=True))
-    said = {"values": values, "sides": dict.fromkeys(values, (1.0, 1.0)), "unknown": (), "sure": True}
+    J = problem.slopes(x)
+    said = {"values": values, "sides": dict.fromkeys(values, (1.0, 1.0)), "covariance": np.linalg.inv(J.T @ J),
+            "unknown": (), "sure": True}  # fmt: skip
     return remembered(TRUE, data, said)
 
 
@@ -148,7 +150,7 @@ def alike(quality, others=()):
     size = len(model.free)
     residuals = Residuals({"tilt": row}, dict(data.series))
     return Fit(model, dict.fromkeys(model.free, (0.1, 0.1)), np.eye(size), residuals, 0,
-               {"tilt": 0.0}, (), (), True)  # fmt: skip
+               {"tilt": 0.0}, (), True)  # fmt: skip
 
 
 def test_of_two_that_fit_the_better_is_said_where_it_is_clearly_better():
@@ -165,7 +167,10 @@ def test_of_two_that_fit_the_better_is_said_where_it_is_clearly_better():
 
 @pytest.mark.parametrize(("r", "says"), [(0.99, "larger if the other is,"), (-0.99, "larger if the other is smaller")])
 def test_numbers_that_move_together_are_said_to_go_the_same_way_or_the_other(r, says):
-    found = replace(alike(0.7), together=(("tilt", "spin", r),), unknown=("spin",))
+    covariance = np.diag([1.0, 1.0, 1.0, 4.0])
+    covariance[0, 3] = covariance[3, 0] = 2 * r
+    found = replace(alike(0.7), covariance=covariance, unknown=("spin",))
+    assert found.together == (("tilt", "spin", pytest.approx(r)),)
     assert says in numbers_table(found)
 
 

@@ -39,6 +39,28 @@ def test_a_saved_film_opens_as_it_was(data):
     assert unpacked(packed(text)) == text
 
 
+@pytest.mark.parametrize("begin", [1.0, 99.987654, 12_345.678901, 1.7e9])
+def test_a_film_is_saved_to_the_frame_however_late_it_begins(begin):
+    """At 960 frames a second, with two values at one time, both of which are data."""
+    t = begin + np.floor(np.arange(30) - (np.arange(30) > 12)) / 960
+    lines = (f"{at:.7f}\t{5 + i}\t{20 - i}" for i, at in enumerate(t))
+    data = settled(read("\n".join(["t (s)\ttilt (deg) ± 1\tspin (rev/s) ± 0.1", *lines])))
+    part = float(t[3]), float(t[-4])
+    text = written(replace(FILM, part=part), data)
+    again = settled(read(text))
+    for name, series in data.series.items():
+        np.testing.assert_allclose(again.series[name].t - begin, series.t - begin, rtol=0, atol=6e-7)
+        np.testing.assert_allclose(again.series[name].values, series.values, rtol=0, atol=series.error / 20)
+    cut = again.between(*opened(text).part)
+    assert {len(series.t) for series in cut.series.values()} == {30 - 6}
+
+
+def test_a_film_that_was_saved_without_correlations_is_to_be_fitted_anew():
+    said = {"values": {}, "sides": {}, "unknown": [], "sure": True}
+    again = opened(written(replace(FILM, fits=(said, said)), settled(read((FOLDER / "made-rolls.csv").read_bytes()))))
+    assert again.law == FILM.law and again.fits == ()
+
+
 def test_a_table_alone_says_nothing_of_a_fit():
     assert opened("t\ttilt\n0\t1\n") is None
 
@@ -61,17 +83,22 @@ def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
         assert after.chi2 == pytest.approx(before.chi2, rel=0.02)  # data are written to a twentieth of their errors
         for name, sides in before.sides.items():
             assert after.sides[name] == pytest.approx(sides, rel=1e-8)
-        np.testing.assert_allclose(after.correlation, before.correlation, atol=1e-3)
+        np.testing.assert_allclose(after.covariance, before.covariance, rtol=1e-8)
+        assert [pair[:2] for pair in after.together] == [pair[:2] for pair in before.together]
     assert "was saved with the film" in other.found.object and "was saved with" not in one.found.object
 
 
 def fits_that_are_none():
     one = {"values": {"tilt": 0.1, "tilt_rate": 0.0, "across": 0.0, "spin": 8.0}, "unknown": [], "sure": True}
     one["sides"] = {name: [0.1, 0.1] for name in one["values"]}
+    one["covariance"] = [0.01, 0, 0, 0, 0.01, 0, 0, 0.01, 0, 0.01]
     yield [one]
     yield 3
     for change in ({"values": {}}, {"values": one["values"] | {"tilt": 9}}, {"sides": {}}, {"unknown": ["mass"]},
-                   {"sides": one["sides"] | {"spin": [-1, 1]}}, {"values": None}):  # fmt: skip
+                   {"sides": one["sides"] | {"spin": [-1, 1]}}, {"values": None}, {"covariance": 0.01},
+                   {"covariance": [0.01] * 3}, {"covariance": [0.01, 0.02, *one["covariance"][2:]]},
+                   {"covariance": [None] * 10}, {"covariance": [-0.01] * 10},
+                   {"covariance": [float("inf")] * 10}):  # fmt: skip
         yield [one | change, one | change]
 
 

@@ -25,6 +25,7 @@ SHEET = table("Zeit/s;Neigung [Grad];Drehzahl (U/min)", ";", ",")
 NAMED = table("t_ms tilt_deg spin", " ")
 UNITS_BELOW = table("a wooden top\nt,tilt,spin\n(s),deg,rev/s", ",")
 IN_WORDS = table("Zeit in s;Neigung in Grad;Drehzahl in U/s", ";", ",")
+PHONE_ONE = table('"Time (s)"\t"Angular velocity (rad/s)"\t"Acceleration (m/s^2)"', "\t")
 GERMAN_PHONE = table('"Zeit (s)"\t"Winkelgeschwindigkeit x (rad/s)"\t"Winkelgeschwindigkeit z (rad/s)"', "\t", ",")
 
 
@@ -38,6 +39,8 @@ GERMAN_PHONE = table('"Zeit (s)"\t"Winkelgeschwindigkeit x (rad/s)"\t"Winkelgesc
         (UNITS_BELOW, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
         (IN_WORDS, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
         (GERMAN_PHONE, [("time", "s"), ("", ""), ("spin", "rad/s")]),
+        (PHONE_ONE, [("time", "s"), ("spin", "rad/s"), ("", "")]),
+        (table("t tilt spin", " ", ","), [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
     ],
 )
 def test_columns_are_understood(text, expected):
@@ -45,6 +48,33 @@ def test_columns_are_understood(text, expected):
     assert [(column.quantity, column.unit) for column in found.columns] == expected
     got = np.array([column.values for column in found.columns]).T
     np.testing.assert_allclose(got, ROWS, atol=6e-5)
+
+
+SEVERAL = "#multi:\n{0}tip{0}{0}ball{0}{0}{0}\nt{0}x{0}y{0}x{0}y{0}\n"
+
+
+@pytest.mark.parametrize("end", ["", "{0}"])
+@pytest.mark.parametrize("between", ["\t", ",", ";"])
+def test_points_that_tracker_followed_name_their_columns(between, end):
+    """Tracker ends its lines with a separator, the lines of names at least. Before a point is marked, there are gaps
+    only."""
+    row = (between.join(["{1:.9E}", *["{2:.9E}"] * 4]) + end).format
+    rows = [row(between, i / 60, 0.01 * i) for i in range(20)]
+    rows[0] = "0.000000000E0" + 4 * between + end.format(between)
+    found = read("\n".join([SEVERAL.format(between) + rows[0], *rows[1:]]) + "\n")
+    assert [column.name for column in found.columns[:5]] == ["t", "tip x", "tip y", "ball x", "ball y"]
+    assert [column.quantity for column in found.columns[:5]] == ["time", "tip_x", "tip_y", "", ""]
+    np.testing.assert_allclose(settled(found).series["tip_x"].values, 0.01 * np.arange(1, 20))
+
+
+def test_decimal_commas_in_quotes_and_signs_as_they_are_printed():
+    """As a sheet on the web writes them where decimals have commas."""
+    rows = (f'"{i / 60:.4f}","{5 + i}","{-i / 2:.1f}"'.replace(".", ",").replace("-", "\u2212") for i in range(20))
+    found = read("\n".join(["t,tilt,spin", *rows]))
+    assert [column.quantity for column in found.columns] == ["time", "tilt", "spin"]
+    np.testing.assert_allclose(found.columns[2].values, -np.arange(20) / 2)
+    with pytest.raises(MeasuredError, match="decimals"):
+        read("\n".join(["t,tilt", *(f'"{i},1",{i}.5' for i in range(20))]))
 
 
 def test_an_empty_column_is_taken_for_nothing():

@@ -1,7 +1,9 @@
 """Installation: dependency bounds, a lock file that fits them, and a source archive that can be worked with."""
 
 import ast
+import json
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -140,7 +142,7 @@ def test_the_wheel_in_an_empty_environment_starts_from_any_directory_and_a_visit
     with serving(alone, tmp_path / "log", elsewhere) as server:
         assert server.process.poll() is None, server.log
         assert run(Visitor.enter(server.url)).component("LabView")
-        assert "Traceback" not in server.log
+        assert "Traceback" not in server.log and "Warning" not in server.log
     assert [*elsewhere.iterdir()] == []
 
 
@@ -167,6 +169,24 @@ def test_the_command_of_the_package_is_that_of_the_module():
     tree = ast.parse((ROOT / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8"))
     [defined] = [node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == function]
     assert not defined.args.args
+
+
+def test_the_list_of_what_is_installed_has_the_locked_libraries_and_those_of_the_bundle():
+    with (ROOT / "deploy/sbom.py").open("rb") as program:
+        done = subprocess.run([sys.executable, "-"], stdin=program, capture_output=True, check=True)
+    listed = json.loads(done.stdout)
+    assert (listed["bomFormat"], listed["metadata"]["component"]["name"]) == ("CycloneDX", "tippe-top-explorer")
+    refs = {each["bom-ref"] for each in listed["components"]}
+    assert len(refs) == len(listed["components"])  # the format wants them unique
+    lock = dict(pins(ROOT / "locks/run.txt", platform.python_version()))
+    assert {f"pkg:pypi/{name}@{version}" for name, version in lock.items()} <= refs
+    bundled = json.loads((ROOT / "app/frontend/package.json").read_text(encoding="utf-8"))["dependencies"]
+    assert {f"pkg:npm/{name}@{version}" for name, version in bundled.items()} <= refs
+    if shutil.which("dpkg-query"):
+        query = ["dpkg-query", "--show", "--showformat", "${db:Status-Abbrev}\\t${Package}\\n"]
+        names = subprocess.run(query, capture_output=True, text=True, check=True).stdout.splitlines()
+        installed = {name for status, name in (line.split("\t") for line in names) if status[1] == "i"}
+        assert installed == {each["name"] for each in listed["components"] if each["purl"].startswith("pkg:deb/")}
 
 
 def test_what_is_to_be_cited_is_this_version_and_the_paper():

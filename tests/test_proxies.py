@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import ClassVar
 
 import pytest
+from openid import SECRET, provider
 from serving import listens, served, until
 from test_faults import LOST, has_come_back, set_K_J
 from visiting import Visit, free_port
@@ -38,8 +39,9 @@ ServerName localhost
 {modules}
 {site}
 """
+SIGNED_IN = 20  # s that a login of Apache's is valid
 MODULES = ("mpm_event authz_core authz_host ssl proxy proxy_http proxy_wstunnel headers filter deflate alias "
-           "socache_shmcb").split()  # fmt: skip
+           "socache_shmcb authn_core authz_user auth_openidc").split()  # fmt: skip
 
 
 def program(name):
@@ -62,9 +64,12 @@ def proxied(name, folder, behind, login=None):
     site = (DEPLOY / file).read_text(encoding="utf-8")
     places = {"/etc/letsencrypt/live/top.example.org/fullchain.pem": f"{folder}/cert.pem", ":5006": f":{behind}",
               "/etc/letsencrypt/live/top.example.org/privkey.pem": f"{folder}/key.pem", "top.example.org": "localhost",
-              "listen 443": f"listen 127.0.0.1:{port}", "*:443": f"127.0.0.1:{port}", "4180": str(login)}  # fmt: skip
+              "listen 443": f"listen 127.0.0.1:{port}", "*:443": f"127.0.0.1:{port}", "4180": str(login),
+              "https://localhost/": f"https://localhost:{port}/", "https://login.example.org": f"http://localhost:{login}",
+              "/etc/apache2/tippe-secrets.conf": f"{folder}/secrets", "43200": str(SIGNED_IN)}  # fmt: skip
     for there, here in places.items():
         site = site.replace(there, here)
+    (folder / "secrets").write_text(f"OIDCClientSecret {SECRET}\nOIDCCryptoPassphrase of-a-test\n")
     if login is not None:
         site = re.sub(r"# LOGIN: ", "", site)
     config = folder / file
@@ -164,3 +169,27 @@ def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(
                 has_come_back(page, "6.5")
     finally:
         login.shutdown()
+
+
+def test_a_login_of_apache_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(page, tmp_path):
+    """Apache's own client of OpenID Connect, mod_auth_openidc, with a provider of our own."""
+    if not Path("/usr/lib/apache2/modules/mod_auth_openidc.so").exists():
+        pytest.skip("mod_auth_openidc is not installed")
+    port = free_port()
+    settings = {"prefix": "/tops", "proxy": 1, "origins": "localhost:*", "port": port}
+    with provider() as login, proxied("apache2", tmp_path, port, login) as root:
+        asked = page.context.request
+        with served(tmp_path / "log", **settings) as server:
+            assert asked.get(f"{root}/tops/readyz", headers={"Sec-Fetch-Mode": "cors"}).status == 401
+            page.goto(f"{root}/tops/app?tab=roll")
+            page.get_by_text("Sign in").click()
+            page.wait_for_function("window.__tippe?.top3d?.pictures > 2", timeout=60_000)
+            set_K_J(page, "6.5")
+            until(lambda: asked.get(f"{root}/tops/readyz", headers={"Sec-Fetch-Mode": "cors"}).status == 401, 60)
+            set_K_J(page, "6.6")  # an open page stays open
+            page.evaluate("window.mark = 1")
+            server.process.kill()
+            page.get_by_text(LOST).wait_for()
+        with served(tmp_path / "again", **settings):
+            page.get_by_text("Sign in").click(timeout=60_000)
+            has_come_back(page, "6.6")

@@ -93,26 +93,30 @@ class Settings:
 
     port: int = _setting(5006, "port to listen on", whole(1, 65535))
     address: str = _setting("", "address to listen on; without it, all of this machine's")
-    prefix: str = _setting("", "path before /app, where a proxy keeps it: /tops", path)
-    origins: tuple = _setting((), "names the server goes by, host or host:port, by commas; without it, any", names)
-    frames: str = _setting("'self'", "pages that may show this one in a frame, as in a CSP",
+    prefix: str = _setting("", "path before /app, if a proxy passes it on: /tops", path)
+    origins: tuple = _setting((), "names of the server, host or host:port, separated by commas; without it, any", names)
+    frames: str = _setting("'self'", "pages that may show this one in a frame, as in a content security policy",
                            matching(r"[^;,\r\n]*", "sources of a CSP, by spaces"))  # fmt: skip
     workers: int = _setting(1, "processes on this port", forked)
     sessions: int = _setting(250, "pages open at once, in each worker", whole(1, 100_000))
-    sessions_per_address: int = _setting(250, "the same, from one address: a hall may be one", whole(1, 100_000))
-    linger: int = _setting(30, "s that a session is kept after its page has gone", whole(1, 3600))
+    sessions_per_address: int = _setting(
+        250, "the same, from one address; a whole class may share one", whole(1, 100_000)
+    )
+    linger: int = _setting(30, "s for which a session is kept after its page has closed", whole(1, 3600))
     proxy: int = _setting(0, "1: believe a proxy's X-Forwarded-For and -Proto", whole(0, 1))
     show: int = _setting(0, "1: open the page in this machine's browser", whole(0, 1))
     votes: str = _setting("", "file or redis://host:6379/0 where votes are kept; without it, a file of this user's",
                           votes)  # fmt: skip
-    votes_per_address: int = _setting(250, "votes in one room from one address: a hall may be one", whole(1, 100_000))
-    secret: str = _setting("", "what sessions are signed with; without it, new at each start")
+    votes_per_address: int = _setting(
+        250, "votes in one room from one address; a whole class may share one", whole(1, 100_000)
+    )
+    secret: str = _setting("", "signs sessions; without it, a new one at each start")
     log: str = _setting("info", "how much is logged: debug, info, warning or error",
                         matching("debug|info|warning|error", "debug, info, warning or error"))  # fmt: skip
-    log_format: str = _setting("text", "text, or json: an object a line", matching("text|json", "text or json"))
-    log_addresses: int = _setting(1, "0: the log has - for each visitor's address", whole(0, 1))
+    log_format: str = _setting("text", "text, or json: one object per line", matching("text|json", "text or json"))
+    log_addresses: int = _setting(1, "0: the log has - in place of visitors' addresses", whole(0, 1))
     metrics: int = _setting(0, "1: /metrics is there, for Prometheus", measured)
-    memory: int = _setting(0, "MB, over which a worker is replaced when nobody is there; 0: never", bound)
+    memory: int = _setting(0, "MB of memory above which a worker without visitors is replaced; 0: never", bound)
     drain: int = _setting(5, "s at most in which open pages are sent elsewhere, one by one, at SIGTERM", whole(0, 3600))
 
     @classmethod
@@ -153,7 +157,7 @@ def _with_port(host):
 def _parser(items):
     parser = argparse.ArgumentParser(
         prog="tippe-top" if Path(sys.argv[0]).stem == "tippe-top" else "python -m app",
-        description="Serves the tippe top explorer, at http://localhost:5006/app if nothing else is said.",
+        description="Serves the tippe top explorer, at http://localhost:5006/app by default.",
         epilog="Each option is an environment variable too: --port 8765 is TIPPE_PORT=8765.",
         allow_abbrev=False,
     )

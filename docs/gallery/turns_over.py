@@ -9,12 +9,10 @@ import numpy as np
 
 from tippe_core import Scales, SmoothedCoulomb, State, Top, slide
 
-LINK = "?v=1&tab=three-planes&plane=sliding&law=smoothed&mu_smooth=.3&eps=1&stem=no&spin=25&tilt=.1&seconds=8"
+LINK = "?v=2&tab=three-planes&by=hand&spin=25&tilt=6&law=smoothed&mu_k=.3&eps=1&stem=no&seconds=8"
 top, scales = Top.paper(), Scales.paper()
-spin = 25 * 2 * np.pi * scales.time
-motion = slide(
-    top, State(theta=0.1, theta_dot=0, omega2=0, omega3=spin), SmoothedCoulomb(0.3, eps=1.0), np.linspace(0, 200, 2000)
-)
+start = State(theta=np.radians(6), theta_dot=0, omega2=0, omega3=25 * 2 * np.pi * scales.time)
+motion = slide(top, start, SmoothedCoulomb(0.3, eps=1.0), np.linspace(0, 8, 2000) / scales.time)
 figure, (above, below) = plt.subplots(2, 1, sharex=True)
 above.plot(motion.t * scales.time, np.degrees(motion.theta))
 above.set_ylabel("θ, degrees")

@@ -1,8 +1,8 @@
 """What closed forms predict for a map: lines drawn over it, and why runs end differently than they allow."""
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,16 +22,24 @@ WINDOW = ("window_low", "window_high")  # I1/I3 = 1 - a/R and 1 + a/R: the borde
 class Disagreement:
     """Where runs differ from a closed form. kind: "lies" (the inverted top should stand, and it does not), "stays" (the
     upright top should be unstable, and it stays), "beyond" (the inverted top should be unstable, and it stands). count:
-    the number of such cells; of: the number of cells for which the closed form predicts this; why: the reason in most
-    of them, a key of maps.toml; one of them, (across, up); and their range across."""
+    the number of such cells; allowed: the number of cells for which the closed form predicts this; low, high: the range
+    across of the former; reasons: most frequent first."""
 
     kind: str
     count: int
     allowed: int
-    why: str
-    one: tuple[float, float]
     low: float
     high: float
+    reasons: tuple["Reason", ...]
+
+
+class Reason(NamedTuple):
+    """Why some runs differ from a closed form: a key of maps.toml; the number of these runs; one of them, (across,
+    up)."""
+
+    why: str
+    runs: int
+    one: tuple[float, float]
 
 
 @lru_cache(256)
@@ -106,14 +114,15 @@ def disagreements(level: Level) -> list[Disagreement]:
 def _disagreement(level: Level, kind: str, says: Bools, otherwise: Bools) -> Disagreement | None:
     if not otherwise.any():
         return None
-    places = np.argwhere(otherwise)
-    reasons = [_why(level, kind, int(i), int(j)) for i, j in places]
-    why = Counter(reasons).most_common(1)[0][0]
-    own = places[[reason == why for reason in reasons]]
-    i, j = own[len(own) // 2]
-    across = level.x[places[:, 1]]
-    return Disagreement(kind, len(places), int(says.sum()), why, (float(level.x[j]), float(level.y[i])),
-                        float(across.min()), float(across.max()))  # fmt: skip
+    cells: dict[str, list[tuple[float, float]]] = {}
+    for i, j in np.argwhere(otherwise):
+        cells.setdefault(_why(level, kind, int(i), int(j)), []).append((float(level.x[j]), float(level.y[i])))
+    reasons = sorted(
+        (Reason(why, len(own), own[len(own) // 2]) for why, own in cells.items()), key=lambda each: -each.runs
+    )
+    across = level.x[otherwise.any(0)]
+    return Disagreement(kind, int(otherwise.sum()), int(says.sum()), float(across.min()), float(across.max()),
+                        tuple(reasons))  # fmt: skip
 
 
 def _why(level: Level, kind: str, i: int, j: int) -> str:
@@ -121,13 +130,22 @@ def _why(level: Level, kind: str, i: int, j: int) -> str:
     end = str(level.end[i, j])
     if kind == "beyond":
         return "carries" if end == "stem" else "high"
-    if kind == "stays" and level.asked.law == "coulomb":
-        return "sticks"
+    if end == "upright":
+        return _stays(level.asked, float(level.x[j]), float(level.y[i]))
     if np.isfinite(level.columns["time_stem"][i, j]):  # it turned over before it rolled or leaned
         pivots = "falls" if level.asked.law == "contensou" else "stem"
         return "lifts" if level.columns["hops"][i, j] > MANY else pivots
     if end == "rolling":
         return "sticks"
-    if kind == "stays" or end == "moving":
-        return "time"
-    return "pivoting" if level.asked.law == "contensou" else "time"
+    return "pivoting" if level.asked.law == "contensou" and end != "moving" else "time"
+
+
+def _stays(asked: Map, across: float, up: float) -> str:
+    """Why a run stays upright: because pivoting brings its spin to where it is stable, or because it ends too soon."""
+    if asked.law == "coulomb":
+        return "sticks"
+    lost = 0.0
+    if asked.law == "contensou":  # the torque of pivoting without slip is constant: 3 pi/16 mu F_z radius
+        cell = asked.at(across, up)
+        lost = 3 * np.pi / 16 * cell.friction.law.mu * cell.friction.law.width / cell.top.I3 * cell.t_end
+    return "pivoting" if _excess(asked, across, up)["leaves"] < lost else "time"

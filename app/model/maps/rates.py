@@ -11,6 +11,7 @@ from app.model.maps.steady import at_place, fixed, launch
 from tippe_core import State, TopError, slide, slide_many, spinning_modes, steady_states, tumbling_modes
 from tippe_core.types import Array
 
+BRANCHES = ("upright", "tumbling", "inverted")
 SPINS, DOTS = 97, 9
 SMALL = 1e-7  # rad: a start so near a pole remains a small deviation for some time
 FOLDS = 3.0  # e-foldings over which the growth of a run is measured
@@ -33,6 +34,16 @@ class Branch(NamedTuple):
     run_growth: Array
 
 
+class OfLaw(NamedTuple):
+    """The growth rate and the rotation rate of one branch at one spin by one law, both 1/s; nan if there is no such
+    steady motion."""
+
+    law: str
+    branch: str
+    growth: float
+    turning: float
+
+
 class Power(NamedTuple):
     """The exponent of time ~ quantity^power, and its error; nan if fewer than three runs turn over. runs: how many
     do."""
@@ -46,9 +57,10 @@ class Power(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rates:
-    """branches: a tuple of Branch; powers: a tuple of Power."""
+    """branches: of the map's law over the spin; laws: of each law at the bead; powers: of each law around the bead."""
 
     branches: tuple[Branch, ...]
+    laws: tuple[OfLaw, ...]
     powers: tuple[Power, ...]
 
 
@@ -58,30 +70,53 @@ def rates(asked: Map, place: tuple[float, float], look: Look | None = None) -> R
     low, high = own.across_range
     spin = np.linspace(max(low, 0.0), high, SPINS)
     if high <= 0:
-        return Rates(branches=(), powers=())
+        return Rates(branches=(), laws=(), powers=())
     here = own.at(high, x["tilt"])
-    branches = tuple(_branch(name, here, spin, look) for name in ("upright", "tumbling", "inverted"))
-    return Rates(branches=branches, powers=powers(own, x, look))
+    branches = tuple(_branch(name, here, spin, look) for name in BRANCHES)
+    return Rates(branches=branches, laws=by_law(own, x), powers=powers(own, x, look))
+
+
+def by_law(own: Map, x: dict[str, float]) -> tuple[OfLaw, ...]:
+    """Each branch by each law, at the spin of the bead."""
+    found = []
+    for law in LAWS:
+        cell = replace(own, law=law, values=_fixed(_of_law(own, law, x))).at(x["spin"], x["tilt"])
+        unit = cell.scales.angular_velocity
+        for name in BRANCHES:
+            mode = unit * _mode(name, cell, launch(cell) * x["spin"])
+            found.append(OfLaw(law, name, mode.real, abs(mode.imag)))
+    return tuple(found)
+
+
+def _of_law(own: Map, law: str, x: dict[str, float]) -> dict[str, float]:
+    """The same with the second number of another law, if it is another one."""
+    return x if law == own.law else x | {"second": Map(law=law).start["second"]}
+
+
+def _fixed(x: dict[str, float]) -> tuple[tuple[str, float], ...]:
+    return tuple((name, x[name]) for name in ("mu", "second", "slip"))
+
+
+def _mode(name: str, here: Cell, C_J: float) -> complex:
+    """The fastest-growing mode, in (g/R)^1/2; nan if there is no such steady motion."""
+    top, law = here.top, here.friction
+    if name != "tumbling":
+        return complex(spinning_modes(top, law, _own_spin(name, C_J, here), name == "inverted")[0])
+    steady = steady_states(top, C_J)
+    between = steady.theta[1:-1][steady.stable[1:-1]]
+    if not len(between):
+        return complex(np.nan, np.nan)
+    modes = tumbling_modes(top, law, float(between[0]))
+    return complex(np.delete(modes, np.argmin(np.abs(modes)))[0])  # without that along the family of steady motions
 
 
 def _branch(name: str, here: Cell, spin: Array, look: Look | None) -> Branch:
-    top, law, unit, per_spin = here.top, here.friction, here.scales.angular_velocity, launch(here)
-    found, of_runs = np.full((len(spin), 2), np.nan), np.empty((0, 2))
-    for i, each in enumerate(spin):
-        if name == "tumbling":
-            steady = steady_states(top, per_spin * each)
-            between = steady.theta[1:-1][steady.stable[1:-1]]
-            if not len(between):
-                continue
-            modes = tumbling_modes(top, law, float(between[0]))
-            modes = np.delete(modes, np.argmin(np.abs(modes)))  # the mode along the family of steady motions
-        else:
-            modes = spinning_modes(top, law, _own_spin(name, per_spin * each, here), name == "inverted")
-        found[i] = unit * modes[0].real, unit * abs(modes[0].imag)
-    if name != "tumbling" and law.law.kind != 0:
+    unit, per_spin, of_runs = here.scales.angular_velocity, launch(here), np.empty((0, 2))
+    modes = unit * np.array([_mode(name, here, per_spin * each) for each in spin])
+    if name != "tumbling" and here.friction.law.kind != 0:
         places = np.linspace(spin[0], spin[-1], DOTS + 2)[1:-1]
         of_runs = np.array([_grown(name, here, per_spin * each, look) for each in places]) * [1 / per_spin, unit]
-    return Branch(name, spin, *found.T, *of_runs.T)
+    return Branch(name, spin, modes.real, np.abs(modes.imag), *of_runs.T)
 
 
 def _own_spin(name: str, C_J: float, here: Cell) -> float:
@@ -116,8 +151,7 @@ def powers(own: Map, x: dict[str, float], look: Look | None = None) -> tuple[Pow
     """The scaling of the time to reach 90 degrees with the spin, mu, and the second parameter of each friction law."""
     found = []
     for law in LAWS:
-        second = x["second"] if law == own.law else Map(law=law).start["second"]
-        mine = x | {"second": second}
+        mine = _of_law(own, law, x)
         for quantity in ("spin", "mu", *(("second",) if law != "viscous" else ())):
             found.append(_power(own, law, quantity, mine, look))
     return tuple(found)
@@ -128,9 +162,8 @@ def _power(own: Map, law: str, quantity: str, x: dict[str, float], look: Look | 
     cells, values = [], []
     for each in by:
         value = x[quantity] * each
-        told = tuple((x | {quantity: value}).items())
         try:
-            asked = replace(own, law=law, values=tuple(pair for pair in told if pair[0] in ("mu", "second", "slip")))
+            asked = replace(own, law=law, values=_fixed(x | {quantity: value}))
             cells.append(asked.at(value if quantity == "spin" else x["spin"], x["tilt"]))
             values.append(value)
         except TopError:

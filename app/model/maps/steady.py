@@ -17,7 +17,7 @@ from tippe_core.types import Array
 
 RUNS, SWEEP, TILTS, LONGER = 41, 17, 181, 4
 MOST_SECONDS = 60.0
-DRIFT = 600  # samples of the long run
+DRIFT = 1200  # samples of the long run, denser at its beginning, where it moves faster
 NO_END = "refused", "moving"
 DIFFER = 5.0  # degrees: the least difference between the sweeps up and down that counts as hysteresis
 Look = Callable[[float], object]
@@ -197,7 +197,7 @@ def _brought(state: States, cell: Cell) -> States | None:
 def _life(here: Cell, look: Look | None) -> Life:
     """The run at the bead for MOST_SECONDS."""
     time = here.scales.time
-    times = np.linspace(0, MOST_SECONDS / time, DRIFT)
+    times = MOST_SECONDS / time * np.linspace(0, 1, DRIFT) ** 2
     moved = slide(here.top, here.state, here.friction, times, rtol=1e-6, landing="plastic", edge=here.edge,
                   progress=look)  # fmt: skip
     stems = [start * time for start, on in moved.supports if on == "stem"]

@@ -3,6 +3,7 @@ film:` and holds the settings. In a link the text is compressed."""
 
 import base64
 import binascii
+import itertools
 import json
 import math
 import zlib
@@ -11,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from app.model.measured.data import Data
+from app.model.measured.data import Data, Series
 from app.model.measured.motion import OF_LAW
 from app.model.measured.remembered import checked
 from app.model.measured.table import LARGEST, MeasuredError
@@ -20,6 +21,7 @@ from tippe_core import Scales, Shape, Top, TopError, load_top, save_top
 
 MARK = "# film:"
 FINE = 20.0  # a value is written to this fraction of its error
+MICRO = 6  # decimals of a time in s
 LONGEST_PACKED = 6000  # characters of a link
 UNITS = {"tilt": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"}
 
@@ -45,16 +47,30 @@ class Film:
 
 def table_of(data: Data) -> str:
     """The data as a table that table.read() accepts, with as many digits as their errors justify: one row for each
-    time, and an empty cell where nothing was measured."""
+    time, more where times repeat, and an empty cell where nothing was measured."""
     heads = [f"{name.replace('_', ' ')} ({UNITS.get(name, 'm')}) ± {series.error:.4g}"
              for name, series in data.series.items()]  # fmt: skip
-    digits = {name: max(0, math.ceil(-math.log10(series.error / FINE))) for name, series in data.series.items()}
-    columns = {name: dict(zip(series.t, series.values, strict=True)) for name, series in data.series.items()}
+    columns = [_cells(series) for series in data.series.values()]
     rows = ["\t".join(["time (s)", *heads])]
-    for t in data.t:
-        cells = [f"{column[t]:.{digits[name]}f}" if t in column else "" for name, column in columns.items()]
-        rows.append("\t".join([f"{t:.6g}", *cells]))
+    for key in sorted({key for column in columns for key in column}):
+        rows.append("\t".join([said_time(key[0]), *(column.get(key, "") for column in columns)]))
     return "\n".join(rows) + "\n"
+
+
+def _cells(series: Series) -> dict[tuple[float, int], str]:
+    """{(time, how many values of this time came before): the value}."""
+    digits = max(0, math.ceil(-math.log10(series.error / FINE)))
+    cells: dict[tuple[float, int], str] = {}
+    for t, value in zip(map(float, series.t), series.values, strict=True):
+        again = next(i for i in itertools.count() if (t, i) not in cells)
+        cells[t, again] = f"{value:.{digits}f}"
+    return cells
+
+
+def said_time(t: float) -> str:
+    """A time in s to the microsecond, so that times and the part of a film are rounded in the same way, and frames stay
+    distinct however late a film begins."""
+    return np.format_float_positional(round(t, MICRO), trim="-")
 
 
 def written(film: Film, data: Data) -> str:
@@ -63,7 +79,7 @@ def written(film: Film, data: Data) -> str:
     said = {
         "law": film.law,
         "loose": film.loose,
-        "part": [round(each, 6) for each in film.part],
+        "part": [round(each, MICRO) for each in film.part],
         "top": [top.a, top.I1, top.I3, scales.R, scales.M, scales.g],
         "body": json.loads(save_top(film.shape)) if film.shape else None,
     } | ({"fits": film.fits} if film.fits else {})
@@ -92,7 +108,8 @@ def _film(said: Any) -> Film:
     start, end, a, I1, I3, R, M, g = map(float, numbers)
     shape = load_top(json.dumps(said["body"])) if said["body"] else None
     film = Film(law, loose, (start, end), Top(a, I1, I3), Scales(R, M, g), shape)
-    if fits := said.get("fits"):
+    fits = said.get("fits", ())
+    if fits and all("covariance" in each for each in fits):  # without, it is of before correlations were kept: fit anew
         both = models(film.top, film.scales, shape, law, film.free)
         return replace(film, fits=tuple(checked(each, model) for each, model in zip(fits, both, strict=True)))
     return film

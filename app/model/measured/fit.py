@@ -37,8 +37,8 @@ class Fit:
     """model: with the best parameters. sides: one standard error of each free parameter, downwards and upwards, inf if
     chi-square never rises enough; covariance: (k, k), from the curvature of chi-square. runs: {quantity: the deviation
     of the number of runs of one sign from its expectation, in standard errors}. unknown: free parameters that the data
-    do not determine; together: (one, other, correlation) of strongly correlated parameters. sure: whether this is
-    certainly the global minimum, because the fit is good or several starts ended here."""
+    do not determine. sure: whether this is certainly the global minimum, because the fit is good or several starts
+    ended here."""
 
     model: Model
     sides: dict[str, tuple[float, float]]
@@ -47,7 +47,6 @@ class Fit:
     hidden: int
     runs: dict[str, float]
     unknown: tuple[str, ...]
-    together: tuple[tuple[str, str, float], ...]
     sure: bool
 
     @property
@@ -86,6 +85,13 @@ class Fit:
         """The correlation matrix (k, k), in the order of the free parameters."""
         size = np.sqrt(np.diag(self.covariance))
         return self.covariance / np.outer(size, size)
+
+    @property
+    def together(self) -> tuple[tuple[str, str, float], ...]:
+        """(one, other, correlation) of strongly correlated parameters."""
+        pairs = itertools.combinations(enumerate(self.model.free), 2)
+        all_of = ((one, other, float(self.correlation[i, j])) for (i, one), (j, other) in pairs)
+        return tuple(pair for pair in all_of if abs(pair[2]) > TOGETHER)
 
     @property
     def constants(self) -> dict[str, tuple[float, float]]:
@@ -221,15 +227,11 @@ def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, 
     tells = found.tells(x, problem.bounds)
     for other in others:  # equally good minima outside the valley around the best one
         tells = np.all([tells, other > x - 2 * found.below, other < x + 2 * found.above], axis=0)
-    errors = np.sqrt(np.diag(found.covariance))
-    correlation = found.covariance / np.outer(errors, errors)
-    pairs = [(names[i], names[j], float(correlation[i, j])) for i, j in itertools.combinations(range(len(names)), 2)
-             if abs(correlation[i, j]) > TOGETHER]  # fmt: skip
     sides = {name: (float(below), float(above))
              for name, below, above in zip(names, found.below, found.above, strict=True)}  # fmt: skip
     return Fit(model, sides, found.covariance, residuals, shifted(data),
                {name: runs(row) for name, row in residuals.of.items()},
-               tuple(name for name, so in zip(names, tells, strict=True) if not so), tuple(pairs), sure)  # fmt: skip
+               tuple(name for name, so in zip(names, tells, strict=True) if not so), sure)  # fmt: skip
 
 
 def runs(row: Array) -> float:

@@ -1,20 +1,19 @@
-"""A fit restored from a saved film or a link, without fitting again. Its parameters and their errors are taken from
-there; the residuals and correlations are computed from the data again."""
+"""A fit restored from a saved film or a link, without fitting again. Its parameters, their errors and correlations are
+taken from there; the residuals are computed from the data."""
 
-import itertools
 from typing import Any
 
 import numpy as np
 
 from app.model.measured.data import Data
-from app.model.measured.fit import TOGETHER, Fit, Problem, runs
+from app.model.measured.fit import Fit, runs
 from app.model.measured.motion import BOUNDS, Model, residuals_of, shifted
 
 DIGITS = 9
 
 
 def said_of(fit: Fit) -> dict[str, Any]:
-    """What is stored of a Fit."""
+    """What is stored of a Fit. covariance: the upper triangle, row by row."""
 
     def short(x: float) -> float | None:
         return float(f"{x:.{DIGITS}g}") if np.isfinite(x) else None
@@ -23,6 +22,7 @@ def said_of(fit: Fit) -> dict[str, Any]:
     return {
         "values": {name: short(fit.model.values[name]) for name in names},
         "sides": {name: [short(side) for side in fit.sides[name]] for name in names},
+        "covariance": [short(each) for each in fit.covariance[np.triu_indices(len(names))]],
         "unknown": list(fit.unknown),
         "sure": bool(fit.sure),
     }
@@ -39,21 +39,22 @@ def checked(said: Any, model: Model) -> dict[str, Any]:
         if not low <= float(value) <= high or not (below > 0 and above > 0):
             raise ValueError(name)
         sides[name] = below, above
-    return {"values": values, "sides": sides, "unknown": tuple(said["unknown"]), "sure": said["sure"] is True}
+    size, triangle = len(model.free), np.array(said["covariance"], dtype=float)
+    covariance = np.zeros((size, size))
+    if triangle.shape != (size * (size + 1) // 2,) or not np.isfinite(triangle).all():
+        raise ValueError("covariance")
+    covariance[np.triu_indices(size)] = triangle
+    covariance += np.triu(covariance, 1).T
+    variances = np.diag(covariance)
+    if variances.min() <= 0 or (np.abs(covariance) > 1.001 * np.sqrt(np.outer(variances, variances))).any():
+        raise ValueError("covariance")
+    return {"values": values, "sides": sides, "covariance": covariance, "unknown": tuple(said["unknown"]),
+            "sure": said["sure"] is True}  # fmt: skip
 
 
 def remembered(model: Model, data: Data, said: dict[str, Any]) -> Fit:
     """The Fit for the result of checked(). Raises TopError if its parameters give no motion."""
     model = model.with_values({name: float(value) for name, value in said["values"].items()})
-    residuals, names = residuals_of(model, data), model.free
-    J = Problem(model, data).slopes(np.array([model.values[name] for name in names]))
-    norms = np.maximum(np.linalg.norm(J, axis=0), 1e-300)
-    covariance = np.linalg.pinv((J / norms).T @ (J / norms)) / np.outer(norms, norms)
-    size = np.sqrt(np.diag(covariance))
-    pairs = (
-        (i, j, float(covariance[i, j] / (size[i] * size[j]))) for i, j in itertools.combinations(range(len(names)), 2)
-    )
-    together = tuple((names[i], names[j], how) for i, j, how in pairs if abs(how) > TOGETHER)
-    return Fit(model, said["sides"], covariance, residuals, shifted(data),
-               {name: runs(row) for name, row in residuals.of.items()}, said["unknown"], together,
-               said["sure"])  # fmt: skip
+    residuals = residuals_of(model, data)
+    return Fit(model, said["sides"], said["covariance"], residuals, shifted(data),
+               {name: runs(row) for name, row in residuals.of.items()}, said["unknown"], said["sure"])  # fmt: skip

@@ -1,7 +1,7 @@
 """What can be downloaded of a fit: the residuals as a table, and a Python program that repeats it."""
 
 from app.model.measured.data import Data
-from app.model.measured.film import table_of
+from app.model.measured.film import MICRO, said_time, table_of
 from app.model.measured.fit import Fit
 
 PROGRAM = '''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder."""
@@ -31,7 +31,7 @@ def residuals_table(data: Data, fit: Fit) -> str:
     rows = ["t_s,quantity,measured,fitted,residual_in_errors"]
     for name, series in data.series.items():
         parts = zip(series.t, series.values, fit.residuals.values[name], fit.residuals.of[name], strict=True)
-        rows += [f"{t:.6g},{name},{seen:.8g},{fitted:.8g},{rest:.5g}" for t, seen, fitted, rest in parts]
+        rows += [f"{said_time(t)},{name},{seen:.8g},{fitted:.8g},{rest:.5g}" for t, seen, fitted, rest in parts]
     return "\n".join(rows) + "\n"
 
 
@@ -40,6 +40,7 @@ def program(data: Data, fits: tuple[Fit, ...], loose: tuple[str, ...], start: fl
     model = fits[0].model
     top, scales = model.top, model.scales
     edge = "" if model.edge is None else f".with_stem({model.edge!r}, {model.tip!r})"
+    start, end = round(start, MICRO), round(end, MICRO)
     return PROGRAM.format(table=table_of(data), start=start, end=end, a=top.a, I1=top.I1, I3=top.I3, R=scales.R,
                           M=scales.M, g=scales.g, names=tuple(fit.model.name for fit in fits), loose=loose,
                           edge=edge)  # fmt: skip

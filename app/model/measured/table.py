@@ -47,8 +47,8 @@ NAMES = {
     "time": "t time zeit seconds frame frames bild bilder timestamp",
     "tilt": "tilt theta θ thetar θr neigung inclination nutation tiltangle neigungswinkel",
     "azimuth": "azimuth azimut phi φ ϕ",
-    "spin": "spin omega3 ω3 w3 ω drehung drehzahl eigendrehung gyroscopez gyroskopz "
-    "angularvelocityz winkelgeschwindigkeitz",
+    "spin": "spin omega3 ω3 w3 ω drehung drehzahl eigendrehung gyroscopez gyroskopz angularvelocity "
+    "angularvelocityz winkelgeschwindigkeit winkelgeschwindigkeitz",
     "precession": "precession präzession phidot precessionrate präzessionsrate",
     "height": "height höhe heightofg h zg",
     "tip": "tip tipheight stemtip spitze stielende heightoftip",
@@ -109,6 +109,7 @@ def read(data: bytes | str) -> Table:
     text = _decoded(data) if isinstance(data, bytes) else data.removeprefix("\ufeff")
     if "\0" in text:
         raise MeasuredError("no-text", line=text[: text.index("\0")].count("\n") + 1)
+    text = text.replace("\u2212", "-")  # a minus as programs print it
     lines = [(number, line) for number, line in enumerate(re.split(r"\r\n|\r|\n", text), 1)
              if line.strip() and not line.lstrip().startswith("#")]  # fmt: skip
     if not lines:
@@ -117,11 +118,12 @@ def read(data: bytes | str) -> Table:
     rows = [(number, _cells(line, between)) for number, line in lines]
     if all(len(cells) > 1 and not cells[-1] for _, cells in rows):  # a separator after the last cell of each line
         rows = [(number, cells[:-1]) for number, cells in rows]
-    first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, between)), None)
+    first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells)), None)
     if first is None:
         raise MeasuredError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
     width = len(rows[first][1])
-    heads = [cells for _, cells in rows[:first] if len(cells) == width]
+    heads = [_without_end(cells, width) for _, cells in rows[:first]]
+    heads = [cells for cells in heads if len(cells) == width]
     if first and not heads and len(rows[first - 1][1]) > 1:
         raise MeasuredError("width", line=rows[first][0], found=width, expected=len(rows[first - 1][1]))
     return _table(_names(heads), rows[first:], between, whole=text[-1] in "\r\n")
@@ -137,19 +139,37 @@ def _decoded(data: bytes) -> str:
 
 
 def _separator(lines: list[tuple[int, str]]) -> str:
-    """The separator: the one that occurs in most lines; a space only if there is no other."""
+    """The separator: the one that occurs in most lines; a space only if there is no other, or commas are decimal."""
     for between in "\t;,":
-        if sum(between in line for _, line in lines) > len(lines) / 2:
+        if sum(between in line and not (between == "," and _is_spaced(line)) for _, line in lines) > len(lines) / 2:
             return between
     return " "
 
 
+def _is_spaced(line: str) -> bool:
+    """Whether there are only spaces between the numbers of a line."""
+    cells = line.split()
+    return len(cells) > 1 and all(_NUMBER.fullmatch(cell) and not cell.endswith(",") for cell in cells)
+
+
 def _names(heads: list[list[str]]) -> list[str] | None:
     """The names from the last line above the numbers, with the units of the line below them if that contains only
-    units."""
+    units, and below the point that Tracker followed if several columns have the same name."""
     if len(heads) > 1 and all(not cell or _bare(cell) in _UNIT for cell in heads[-1]) and any(heads[-1]):
         return [f"{name} ({_bare(unit)})" if unit else name for name, unit in zip(*heads[-2:], strict=True)]
+    if len(heads) > 1 and len(set(heads[-1])) < len(heads[-1]) and not heads[-2][0]:
+        names, point = [], ""
+        for above, name in zip(*heads[-2:], strict=True):
+            point = above or point
+            names.append(f"{point} {name}".strip())
+        return names
     return heads[-1] if heads else None
+
+
+def _without_end(cells: list[str], width: int) -> list[str]:
+    """A line of names without the empty cells that Tracker adds at its end."""
+    full = max((i for i, cell in enumerate(cells, 1) if cell), default=0)
+    return cells[: max(full, width)]
 
 
 def _bare(unit: str) -> str:
@@ -164,14 +184,11 @@ def _cells(line: str, between: str) -> list[str]:
     return [cell.strip().strip('"').strip() for cell in cells]
 
 
-def _is_number(cell: str, between: str) -> bool:
-    return bool(_NUMBER.fullmatch(cell)) and (between != "," or "," not in cell)
-
-
-def _is_data(cells: list[str], between: str) -> bool:
+def _is_data(cells: list[str]) -> bool:
     """Whether this is a row of numbers, possibly with gaps."""
-    numbers = sum(_is_number(cell, between) for cell in cells)
-    return numbers > 0 and numbers >= len(cells) / 2
+    full = [cell for cell in cells if cell]
+    numbers = sum(bool(_NUMBER.fullmatch(cell)) for cell in full)
+    return numbers > 0 and numbers >= len(full) / 2
 
 
 def _shape(cell: str) -> tuple[int, bool]:
@@ -211,7 +228,7 @@ def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: 
         cells.extend([""] * (width - len(cells)))
     if not FEWEST <= len(rows) <= MOST:
         raise MeasuredError("rows", rows=len(rows), least=FEWEST, most=MOST)
-    _check_decimals(rows, between)
+    _check_decimals(rows)
     values = np.array([[_value(cell, number, name) for cell, name in zip(cells, names, strict=True)]
                        for number, cells in rows])  # fmt: skip
     lines = np.array([number for number, _ in rows])
@@ -242,10 +259,8 @@ def _gaps(columns: tuple[Column, ...], lines: Array) -> Iterator[tuple[str, dict
             yield "gaps", found
 
 
-def _check_decimals(rows: list[tuple[int, list[str]]], between: str) -> None:
+def _check_decimals(rows: list[tuple[int, list[str]]]) -> None:
     """Raises MeasuredError if some numbers have a decimal comma and others a point."""
-    if between == ",":
-        return
     first = ""
     for number, cells in rows:
         for cell in cells:

@@ -22,7 +22,7 @@ from app.tabs.maps.export import KINDS, made, python
 from app.tabs.maps.picture import MapFigure, RunFigure
 from app.tabs.maps.stage import map_stage, show_run
 from app.tabs.maps.steady import Steady
-from app.tabs.maps.words import colours_say, of_disagreement, of_run, of_worst, title, with_unit
+from app.tabs.maps.words import colours_say, of_reason, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, alert, flow, note, on_click, progress, words
 from app.widgets.copy import Copy
@@ -31,9 +31,20 @@ from tippe_core import TopError
 
 MAP = Map()
 PICTURE_EVERY = 0.3  # s
-SIDE = {"background": "var(--card, white)", "border-radius": "10px", "padding": "10px 14px", "box-sizing": "border-box"}
-ROW = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
-WHY = 3  # kinds of disagreement that are shown
+PART = {"background": "var(--card, white)", "border-radius": "10px", "padding": "10px 14px", "box-sizing": "border-box",
+        "min-width": "0"}  # fmt: skip
+# On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
+ROOM = """
+:host { display: grid; gap: 12px; padding: 12px; align-items: start; grid: auto-flow max-content / minmax(0, 1fr);
+  min-height: max-content }
+@media (min-width: 900px) {
+  :host { padding: 12px 24px; grid: max-content 1fr / minmax(0, 66fr) minmax(0, 34fr) }
+  .run { grid-area: 1 / 2 / span 2 }
+}
+"""
+ANSWER = "@media (max-width: 899px) { .answer { order: -1 } }"
+CLOSER = 3  # how much smaller the range is then
+KINDS_OF, WHY = 3, 3  # kinds of disagreement, and the reasons for each that are shown
 
 
 class Maps:
@@ -43,7 +54,7 @@ class Maps:
 
     def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
-        self.choice, self.level, self._found, self._seen, self._outline = MapChoice(), None, [], None, None
+        self.choice, self.level, self._ones, self._seen, self._outline = MapChoice(), None, [], None, None
         self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen, self._outline = of_page(scene), scene.profile
@@ -51,15 +62,18 @@ class Maps:
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
-        self.run_says, self.whys = words(margin=(6, 0)), [words() for _ in range(WHY)]
+        self.run_says, self.whys = (
+            words(margin=(6, 0), css_classes=["answer"]),
+            [words() for _ in range(KINDS_OF * WHY)],
+        )
         self.map, self.curve = MapFigure(self._by_hand), RunFigure()
         self.stage = map_stage()
         self.steady = Steady(self._runs)
-        self.stop, self.whole, self.thrown = (
+        self.stop, self.closer, self.whole, self.thrown = (
             pmui.Button(label=say(f"maps.{name}"), disabled=name == "stop", **BUTTON)
-            for name in ("stop", "whole", "throw")
+            for name in ("stop", "closer", "whole", "throw")
         )
-        shows = [pmui.Button(label=say("maps.show_one"), **BUTTON) for _ in range(WHY)]
+        shows = [pmui.Button(label=say("maps.show_one"), **BUTTON) for _ in self.whys]
         # rows come and go, but not their buttons: a button that changes before its script has loaded breaks
         # nor their container, whose own style would show all of it anyway
         self.thrown_row, *self.show_rows = rows = [
@@ -68,10 +82,11 @@ class Maps:
         for row in rows:
             row.visible = False
         on_click(self.stop, lambda event: self._run and self._run.stop())
+        on_click(self.closer, lambda event: self.settings.look_at(*self._around()))
         on_click(self.whole, lambda event: self.settings.look_at(*self._usual_spans()))
         on_click(self.thrown, lambda event: self._to_lab(look=True))
         for i, button in enumerate(shows):
-            on_click(button, lambda event, i=i: self.go(*self._found[i].one, cell=True))
+            on_click(button, lambda event, i=i: self.go(*self._ones[i], cell=True))
         self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
         self.files = [
             Download(self._runs, lambda: (self.level, self.choice.colour), partial(_file, kind), label=kind.upper(),
@@ -85,18 +100,21 @@ class Maps:
 
     @property
     def view(self):
-        """The two sides; one above the other if there is little room."""
-        left = [self.head, self.names, _figure(self.map.figure),
-                flow(self.stop, self.whole, self.bar, margin=(4, 0)), self.said, words(note(say("maps.hint"))),
-                self.worst, *self.steady.view,
-                words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)), flow(*self.files), self.python]  # fmt: skip
+        """The map, the run at the bead with the inputs, and what is below; one below the other if there is little
+        room."""
+        above = [self.head, self.names, _figure(self.map.figure),
+                 flow(self.stop, self.closer, self.whole, self.bar, margin=(4, 0)), self.said,
+                 words(note(say("maps.hint")))]  # fmt: skip
+        below = [self.worst, *self.steady.view, words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)),
+                 flow(*self.files), self.python]  # fmt: skip
         whys = [part for pair in zip(self.whys, self.show_rows, strict=True) for part in pair]
-        right = [self.stage, self.run_says, _figure(self.curve.figure),
+        beside = [self.stage, self.run_says, _figure(self.curve.figure),
                  words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown_row,
                  self.key, *whys, *self.settings.view]  # fmt: skip
-        sides = [pn.Column(*parts, margin=0, styles=SIDE | {"flex": flex, "min-width": "0"})
-                 for parts, flex in ((left, "3 1 480px"), (right, "1 1 340px"))]  # fmt: skip
-        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, styles=ROW)
+        parts = [pn.Column(*content, margin=0, sizing_mode="stretch_width", styles=PART, css_classes=[name],
+                           stylesheets=[ANSWER])
+                 for content, name in ((above, "above"), (beside, "run"), (below, "below"))]  # fmt: skip
+        return pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[ROOM])
 
     def show(self, scene):
         """Uses the top of the page's new scene, if it has changed."""
@@ -129,6 +147,15 @@ class Maps:
         return [
             (QUANTITIES[name].low, QUANTITIES[name].high) for name in (self.choice.asked.across, self.choice.asked.up)
         ]
+
+    def _around(self):
+        """Smaller ranges around the bead, within the present ones."""
+        found = []
+        for x, (low, high) in zip(self.choice.place, spans(self.choice.asked), strict=True):
+            wide = (high - low) / CLOSER
+            begins = min(max(x - wide / 2, low), high - wide)
+            found.append((begins, begins + wide))
+        return found
 
     # ---- the map ----
 
@@ -202,15 +229,18 @@ class Maps:
         if isinstance(result, Exception):
             self.said.object = alert(say("maps.failed"))
             raise result
-        level, self._found = result
+        level, found = result
+        told_of = [(each, k) for each in found for k in range(min(len(each.reasons), WHY))]
+        self._ones = [each.reasons[k].one for each, k in told_of]
         with pn.io.hold():
             self._show(level)
             self.said.object = ""
             self.worst.object = note(of_worst(level))
             for i, (why, row) in enumerate(zip(self.whys, self.show_rows, strict=True)):
-                found = self._found[i] if i < len(self._found) else None
-                why.object = of_disagreement(found, asked, first=i == 0)
-                row.visible = found is not None
+                row.visible = i < len(told_of)
+                why.object = of_reason(*told_of[i], asked) if row.visible else ""
+            self.whys[0].object = (f"<h2>{say('maps.disagree')}</h2>" + self.whys[0].object if told_of
+                                   else note(say("maps.agree")))  # fmt: skip
 
     # ---- one run ----
 

@@ -14,6 +14,8 @@ from app.text import listed, say
 from app.widgets.plots import draw, plain
 
 DARK = "#1b2430"
+# The accent on the cells, which are the same in every look: as numbers, because the look exchanges its name.
+ON_MAP = f"rgb({', '.join(map(str, bytes.fromhex(ACCENT[1:])))})"
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip
 LEAST_AREA, LEAST_ROOM = 0.06, 0.05  # of the map's area and width: an end with less room is named in the key only
@@ -41,25 +43,25 @@ class MapFigure:
         draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color="#fefefe", line_width=5)
         draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
-        line = {"x1": "x", "y1": "y", "line_color": ACCENT, "line_width": 1.5}
+        line = {"x1": "x", "y1": "y", "line_color": ON_MAP, "line_width": 1.5}
         self._to_axes = [draw(fig, Segment, source=self.bead, **line, **begin)
                          for begin in ({"x0": 0.0, "y0": "y"}, {"x0": "x", "y0": 0.0})]  # fmt: skip
         draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe",
-             line_color=ACCENT, line_width=5)  # fmt: skip
+             line_color=ON_MAP, line_width=5)  # fmt: skip
         self.words = []
         for _ in ends.NAMES:
             self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
                                     text_font_size="12px", text_font_style="bold"))  # fmt: skip
             fig.add_layout(self.words[-1])
         self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [0]})
-        box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color=ACCENT, fill_alpha=0.15,
-                            line_color=ACCENT, line_width=2)  # fmt: skip
+        box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color=ON_MAP, fill_alpha=0.15,
+                            line_color=ON_MAP, line_width=2)  # fmt: skip
         fig.add_layout(box)
         mine = {"fig": fig, "hand": self.hand, "bead": self.bead, "box": box}
         for event in ("tap", "panstart", "pan", "panend"):
             fig.js_on_event(event, call("pullBead", **mine))
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label")))
-        fig.js_on_change("inner_width", call("keepFinger", fig=fig, bead=self.bead))
+        fig.js_on_change("inner_width", call("keepFinger", fig=fig, bead=self.bead, hand=self.hand))
         fig.js_on_change("inner_width", call("moveBead", fig=fig, hand=self.hand, bead=self.bead, map=self.fine))
         self.hand.on_change("data", lambda attr, old, new: go(new))
 

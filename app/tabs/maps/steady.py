@@ -21,8 +21,14 @@ from app.widgets.plots import draw, plain
 from tippe_core import TopError
 
 COLOURS = {"upright": ACCENT, "tumbling": ends.COLOUR["stem"], "inverted": "#9b2d20"}
+OF_KEY = {ACCENT: f"var(--accent, {ACCENT})"}  # the figures change it on dark too
 DASHES = {True: "solid", False: "dashed"}
-SHADES = (ends.COLOUR["stem"], "#fefefe")  # of the points after the first and the second time
+TABLE = """
+table { border-collapse: collapse; margin: 4px 0 8px } th, td { padding: 2px 16px 2px 0; text-align: left;
+  font-weight: 400; vertical-align: baseline } td { font-variant-numeric: tabular-nums }
+th { color: var(--faint, #5b6875) }
+"""
+SHADES = (ends.COLOUR["stem"], None)  # of the points after the first and the second time
 
 
 class Steady:
@@ -30,7 +36,8 @@ class Steady:
 
     def __init__(self, runs):
         self._runs, self._key, self._drawn = runs, None, False
-        self.title, self.says, self.powers, self.rates_title = words(), words(), words(), words()
+        self.title, self.says, self.key, self.rates_title = words(), words(), words(), words()
+        self.laws, self.powers = words(style=TABLE), words(style=TABLE)
         self.bends = fig = _figure("maps-bends", 230, (0, 184))
         fig.yaxis.ticker = [0, 45, 90, 135, 180]
         self.lines = ColumnDataSource({"xs": [], "ys": [], "dash": []})
@@ -59,10 +66,11 @@ class Steady:
     def view(self):
         pair = pn.Row(*(_pane(fig, flex="1 1 240px") for fig in (self.grow, self.turn)), margin=0,
                       styles={"display": "flex", "flex-flow": "row wrap"}, sizing_mode="stretch_width")  # fmt: skip
-        key = note(" &emsp; ".join(f'<span style="color: {colour}">■</span> {listed("maps.branches")[name]}'
-                                   for name, colour in COLOURS.items()))  # fmt: skip
-        return [self.title, _pane(self.bends), words(note(say("maps.steady.key"))), self.says, self.rates_title,
-                words(key), pair, self.powers]  # fmt: skip
+        named = listed("maps.branches")
+        key = "".join(f'<span style="color: {OF_KEY.get(colour, colour)}">■</span> {named[name]} &emsp; '
+                      for name, colour in COLOURS.items())  # fmt: skip
+        return [self.title, _pane(self.bends), self.key, self.says, self.rates_title, words(note(key)), pair, self.laws,
+                self.powers]  # fmt: skip
 
     def show(self, asked, place):
         """Computes and draws the results for the bead at a place of a Map."""
@@ -104,11 +112,15 @@ class Steady:
             self._draw(found)
             self._draw_rates(small)
             self.says.object = of_life(found)
-            self.powers.object = of_powers(small.powers, x)
+            first, second = found.times
+            self.key.object = note(say("maps.steady.key", first=first, second=second))
+            self.laws.object, self.powers.object = of_laws(small.laws, x), of_powers(small.powers)
 
     def _clear(self):
         """Clears the results of the previous place."""
-        self._drawn, self.rates_title.object, self.powers.object = False, "", ""
+        self._drawn = False
+        for said in (self.rates_title, self.key, self.laws, self.powers):
+            said.object = ""
         for source in (self.lines, *self.dots, *self.sweeps, self.life, *sum(self.branches.values(), ())):
             source.data = {name: [] for name in source.data}
 
@@ -160,24 +172,36 @@ def of_life(found):
     return " ".join(said)
 
 
-def of_powers(powers, x):
+def of_laws(laws, x):
+    """A table: growth and rotation of small motions at the spin of the bead, for each law."""
+    cells = {(each.law, each.branch): say("maps.steady.of_law", growth=each.growth, turning=each.turning / (2 * np.pi))
+             for each in laws if np.isfinite(each.growth)}  # fmt: skip
+    return note(say("maps.steady.laws", spin=x["spin"])) + _table(cells, listed("maps.branches")) if laws else ""
+
+
+def of_powers(powers):
     """A table: how the time to reach 90 degrees scales with each quantity, for each law."""
-    quantities, seconds = ("spin", "mu", "second"), listed("maps.quantities")
-    by = {(power.law, power.quantity): power for power in powers}
-    rows = []
-    for law in dict.fromkeys(power.law for power in powers):
-        cells = []
-        for quantity in quantities:
-            power = by.get((law, quantity))
-            cells.append("" if power is None else say("maps.steady.power", power=power.power, error=power.error)
-                         if np.isfinite(power.power) else say("maps.steady.no_power"))  # fmt: skip
-        rows.append(f"<tr><th scope='row'>{listed('maps.laws')[law]}</th>"
-                    + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")  # fmt: skip
-    if not rows:
+    if not powers:
         return ""
-    head = "".join(f"<th scope='col'>{seconds[name]}</th>" for name in quantities)
-    return (f"<h2>{say('maps.steady.powers')}</h2>" + note(say("maps.steady.powers_say"))
-            + f"<table><tr><th></th>{head}</tr>{''.join(rows)}</table>")  # fmt: skip
+    named = listed("maps.quantities")
+    table = _table({(power.law, power.quantity): _power(power) for power in powers},
+                   {name: named[name] for name in ("spin", "mu", "second")})  # fmt: skip
+    return f"<h2>{say('maps.steady.powers')}</h2>" + note(say("maps.steady.powers_say")) + table
+
+
+def _power(power):
+    if np.isfinite(power.power):
+        return say("maps.steady.power", power=power.power, error=power.error)
+    return say("maps.steady.few_powers" if power.runs else "maps.steady.no_power")
+
+
+def _table(cells, columns):
+    """A row for each law. cells: {(law, a key of columns): its words}; columns: {key: its name}."""
+    rows = "".join(f"<tr><th scope='row'>{name}</th>"
+                   + "".join(f"<td>{cells.get((law, column), '')}</td>" for column in columns) + "</tr>"
+                   for law, name in listed("maps.laws").items())  # fmt: skip
+    head = "".join(f"<th scope='col'>{name}</th>" for name in columns.values())
+    return f"<table><tr><th></th>{head}</tr>{rows}</table>"
 
 
 def _figure(name, height, span):

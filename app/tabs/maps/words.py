@@ -8,7 +8,7 @@ from app.model.maps.lines import lines
 from app.model.maps.maps import QUANTITIES, UNITS
 from app.tabs.maps.picture import DASHES, span
 from app.text import listed, say, written
-from app.widgets.cards import note, px, swatch
+from app.widgets.cards import px, swatch
 from app.widgets.typeset import power
 
 PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
@@ -39,7 +39,9 @@ def colours_say(level, colour):
     if level.finest:
         said.append(_patch(HATCHED, say("maps.hatched")))
         names = dict.fromkeys(name for name, _ in lines(level.asked))
-        said += [f"<br>{swatch('#5b6875', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names]
+        said += [
+            f"<br>{swatch('var(--faint, #5b6875)', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names
+        ]
     return "".join(said)
 
 
@@ -62,14 +64,14 @@ def of_worst(level):
     return say("maps.worst", energy=power(level.worst("energy_error")), drift=kept) + " " + say("maps.unsettled")
 
 
-def of_disagreement(found, asked, first):
-    """Where runs differ from a closed form, and why; first: whether it is the first kind of disagreement to be told."""
-    if found is None:
-        return note(say("maps.agree")) if first else ""
+def of_reason(found, k, asked):
+    """The reason number k why runs differ from a closed form; before the first one, where they do."""
     low, high = written(found.low, ".3g"), _measured(found.high, asked.across)
-    says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=low, high=high)
-    says += say(f"maps.why.{found.why}")
-    return (f"<h2>{say('maps.disagree')}</h2>" if first else "") + says
+    says, (why, count, _) = "", found.reasons[k]
+    if k == 0:
+        says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=low, high=high) + " "
+    says += say("maps.of_them" if len(found.reasons) > 1 else "maps.of_all", count=count)
+    return says + " " + say(f"maps.why.{why}")
 
 
 def _measured(value, name):

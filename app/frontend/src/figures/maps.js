@@ -1,5 +1,6 @@
-// A map. Dragging moves the bead if it starts near it, and draws a box elsewhere; a click chooses a cell. `hand` sends
-// all of this to Python, a box as two opposite corners. The arrow keys move the bead from cell to cell.
+// A map. Dragging moves the bead if it starts near it, and draws a box elsewhere, but not with a finger, which scrolls
+// there; a click chooses a cell. `hand` sends all of this to Python, a box as two opposite corners. The arrow keys move
+// the bead from cell to cell.
 import { elementOf, eventsOf, scalesOf } from "../borrowed.js";
 import { clamp } from "./curves.js";
 import { isFollowed } from "./seeking.js";
@@ -8,12 +9,19 @@ const REACH = 40; // px
 const LEAST = 12; // px: the smallest box
 const WAIT = 80; // ms between two positions that are sent while the pointer moves
 
-// For each hand: whether it holds the bead, the corner where its box begins, and when a position was last sent.
+// For each hand: whether it is a finger, whether it holds the bead, the corner where its box begins, and when a position
+// was last sent.
 /** @typedef {{ x: number, y: number, sx: number, sy: number }} Corner */
-/** @typedef {{ held: boolean, from: Corner | null, sent: number }} Hand */
+/** @typedef {{ finger: boolean, held: boolean, from: Corner | null, sent: number }} Hand */
 /** @typedef {{ setv(values: object, options: object): void }} Settable */
 /** @type {WeakMap<object, Hand>} */
 const hands = new WeakMap();
+
+/** @param {object} hand */
+function stateOf(hand) {
+  if (!hands.has(hand)) hands.set(hand, { finger: false, held: false, from: null, sent: 0 });
+  return /** @type {Hand} */ (hands.get(hand));
+}
 
 // The distance of the bead from a place, in px.
 /** @param {Pick<Source<"x" | "y">, "data">} bead @param {number[]} place @param {Record<"x" | "y", Pick<PixelScale, "compute">>} scales */
@@ -23,13 +31,12 @@ function awayFromBead({ data }, [px, py], { x, y }) {
 
 /** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y">, box: Settable }} given @param {Happened} event */
 export function pullBead({ fig, hand, bead, box }, { event_name: name, sx, sy, x, y }) {
-  const own = hands.get(hand) ?? { held: false, from: null, sent: 0 }, clicked = name === "tap";
-  hands.set(hand, own);
+  const own = stateOf(hand), clicked = name === "tap";
   const { x_range: across, y_range: up } = fig;
   const place = { x: clamp(x, across.start, across.end), y: clamp(y, up.start, up.end) };
   if (name === "panstart") {
     own.held = awayFromBead(bead, [sx, sy], scalesOf(fig)) < REACH;
-    own.from = own.held ? null : { ...place, sx, sy };
+    own.from = own.held || own.finger ? null : { ...place, sx, sy };
   }
   if (!clicked && own.from) return drawBox(own, hand, box, name, { ...place, sx, sy });
   if (!clicked && !own.held) return;
@@ -87,10 +94,12 @@ export function moveBead({ fig, hand, bead, map }) {
 }
 
 // A finger near the bead moves the bead; anywhere else it scrolls the page.
-/** @param {{ fig: Figure, bead: Source<"x" | "y"> }} given */
-export function keepFinger({ fig, bead }) {
+/** @param {{ fig: Figure, bead: Source<"x" | "y">, hand: Source }} given */
+export function keepFinger({ fig, bead, hand }) {
   if (isFollowed(bead)) return;
   const events = eventsOf(fig);
+  const onPointer = ({ pointerType }) => (stateOf(hand).finger = pointerType === "touch");
+  events.addEventListener("pointerdown", onPointer, { capture: true });
   const onTouch = (event) => {
     const { left, top } = events.getBoundingClientRect(), [{ clientX, clientY }] = event.touches;
     const near = awayFromBead(bead, [clientX - left, clientY - top], scalesOf(fig)) < REACH;

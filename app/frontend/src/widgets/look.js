@@ -6,12 +6,12 @@ import { endColours } from "../ends.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
-const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff", "#d9b98c"]; // and grid and background of app/widgets/plots.py, wood of a section
+const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff", "#d9b98c", colours.accent]; // and grid and background of app/widgets/plots.py, wood of a section
 const looks = {
   light: INKS,
-  "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff", "#d9b98c"],
-  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23", "#75592f"],
-  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000", "#75592f"],
+  "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff", "#d9b98c", colours.accent],
+  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23", "#75592f", onDark.accent],
+  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000", "#75592f", onDark.accent],
 };
 const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2", "dark large": "#e3e8ed" };
 
