@@ -12,7 +12,7 @@ const standIn = (here.Bokeh = { safely: (what) => asked.push(what) });
 const parsed = new Promise((resolve) => addEventListener("DOMContentLoaded", resolve));
 
 /** @param {HTMLScriptElement} script */
-function run(script) {
+function insert(script) {
   const again = document.createElement("script");
   for (const { name, value } of script.attributes) again.setAttribute(name, value);
   again.text = script.text;
@@ -32,7 +32,7 @@ async function later() {
   const coming = [];
   for (const script of content.querySelectorAll("script")) {
     if (!script.src) await Promise.all(coming);
-    coming.push(run(script));
+    coming.push(insert(script));
   }
   if (here.Bokeh === standIn) return void delete here.Bokeh; // did not come: the page says so
   for (const what of asked) here.Bokeh.safely(what);
