@@ -13,7 +13,7 @@ from PIL import Image
 
 from app.model import ends
 from app.model.maps import kept
-from app.model.maps.lines import disagreements, lines
+from app.model.maps.lines import FINE, disagreements, lines
 from app.model.maps.maps import LAWS, QUANTITIES, UNITS, Map
 from app.model.maps.solving import Level, run, solve
 from app.tabs.maps.export import made, python
@@ -86,6 +86,14 @@ def test_lines_part_the_three_published_regimes_of_top_S():
           ((name, line[np.argsort(line[:, 1])]) for name, line in lines(asked))}  # fmt: skip
     low, middle, high = np.array([25, 60, 90]) / (2 * np.pi)
     assert low < at["leaves"] < middle < at["stands"] < high
+
+
+def test_a_line_has_a_point_in_each_row_that_it_crosses_and_the_same_with_the_axes_changed():
+    asked = Map()
+    turned = Map(across="tilt", up="spin", across_range=asked.up_range, up_range=asked.across_range)
+    one, other = dict(lines(asked))["stands"], dict(lines(turned))["stands"]
+    np.testing.assert_allclose(one[:, 1], np.linspace(*asked.up_range, FINE))
+    np.testing.assert_allclose(one, other[:, ::-1])
 
 
 def test_the_window_of_inversion():
@@ -170,6 +178,12 @@ def test_a_quantity_on_an_axis_is_first_what_it_is_of_the_body(name, law):
     assert numbers(cell) == pytest.approx(numbers(usual.at(usual.start["spin"], usual.start["tilt"])), rel=1e-12)
 
 
+@pytest.mark.parametrize(("second", "at_rest"), [(0.5, 0.5), (0.1, 0.3)])
+def test_friction_at_rest_is_the_second_number_of_coulombs_law_and_no_less_than_that_of_slipping(second, at_rest):
+    friction = Map(law="coulomb", values=(("second", second),)).at(28.6, 5.7).friction
+    assert (friction.law.mu, friction.law.mu_s) == (0.3, at_rest)
+
+
 @pytest.mark.parametrize("slip", [0.0, 0.4, 1.0])
 def test_the_slip_at_the_start_is_a_share_of_that_of_a_top_at_rest(slip):
     """Which goes round at omega_3, its point of contact sin(theta) from the axis."""
@@ -187,6 +201,7 @@ def test_the_run_of_a_place_is_that_of_its_cell(level):
     found = run(level.asked, level.x[j], level.y[i])
     assert (found.end, found.hops) == (level.end[i, j], level.columns["hops"][i, j])
     assert found.time_90 == pytest.approx(level.columns["time_90"][i, j], rel=1e-9)
+    assert found.time_90 < level.columns["time_stem"][i, j] <= found.time_stem  # touched, and alone
     assert found.theta[-1] == pytest.approx(level.columns["theta_end"][i, j], abs=1e-3) and found.hops > 10
     toy = run(Map(), 28.6, 5.7)
     above = toy.film.com[:, 2] + toy.film.top.a * np.cos(toy.film.theta) - 1  # of O, over its place on the ball
@@ -239,7 +254,8 @@ def test_maps_are_kept_and_bounded(level, monkeypatch, tmp_path):
     for each in maps:
         assert kept.recall(each.asked) is None
         kept.keep(each)
-    assert len(kept._memory) == 1 and len(list((tmp_path / "maps").iterdir())) == 2
+    assert len(kept._memory) == 1
+    assert {file.name for file in (tmp_path / "maps").iterdir()} == {"0.2.npz", "0.3.npz"}
     again = kept.recall(maps[1].asked)
     np.testing.assert_array_equal(again.end, maps[1].end)
     for name in UNITS:
@@ -247,6 +263,16 @@ def test_maps_are_kept_and_bounded(level, monkeypatch, tmp_path):
     (tmp_path / "maps" / "0.3.npz").write_bytes(b"broken")
     kept._memory.clear()
     assert kept.recall(maps[2].asked) is None
+
+
+def test_what_was_shown_last_stays_in_memory(level, monkeypatch):
+    monkeypatch.setattr(kept, "IN_MEMORY", 2)
+    first, second, third = (replace(level, asked=replace(level.asked, seconds=seconds)) for seconds in (1.0, 2.0, 3.0))
+    kept.keep(first)
+    kept.keep(second)
+    assert kept.recall(first.asked) is first
+    kept.keep(third)
+    assert kept.recall(first.asked) is first and kept.recall(second.asked) is None
 
 
 UPS = ["tilt", "mu", "second", "slip", "a", "ratio", "R", "stem", "rounding"]
@@ -270,6 +296,8 @@ def test_files_say_what_they_are_of(level):
     assert parameters["body"] == level.asked.body and parameters["units"]["time_90"] == "s"
     table = list(csv.DictReader(io.StringIO("\n".join(rows))))
     assert len(table) == 81 and table[10]["end"] == level.end[1, 1]
+    assert [row["mixed"] for row in table] == [str(int(mixed)) for mixed in level.mixed.ravel()]
+    assert 0 < level.mixed.sum() < 81
     with np.load(io.BytesIO(made(level, "end", "npz"))) as file:
         assert json.loads(str(file["parameters"]))["values"]["mu"] == 0.3
         np.testing.assert_array_equal(file["heat"], level.columns["heat"])

@@ -8,15 +8,18 @@ import pytest
 
 from app.model.maps import steady
 from app.model.maps.body import outline_of
+from app.model.maps.kept import recall
 from app.model.maps.lines import disagreements
 from app.model.maps.maps import UNITS, Map
-from app.model.maps.rates import Power, by_law, rates
-from app.model.maps.solving import Level
+from app.model.maps.rates import OfLaw, Power, by_law, rates
+from app.model.maps.solving import CURVE, Level, run
 from app.model.maps.steady import Bifurcation, at_place, bifurcation, fixed
 from app.model.maps.throw import throw_of
-from app.tabs.maps.steady import of_powers
+from app.tabs.maps.picture import MapFigure
+from app.tabs.maps.steady import of_laws, of_powers
 from app.tabs.maps.words import of_reason
 from tippe_core import PRESETS, State, slide, thresholds
+from tippe_core.linear import tumbling
 
 LEFT, RIGHT = (0, 0), (0, 2)  # a cell that cannot stand turned over by the formula, and one that can
 
@@ -65,6 +68,9 @@ def test_each_reason_is_told_with_the_number_of_its_runs_the_most_frequent_first
     assert found.reasons == (("pivoting", 3, (x[1], y[0])), ("time", 1, (x[1], y[1])))
     first, second = (of_reason(found, k, asked) for k in (0, 1))
     assert first.startswith("In this map, 4 of the 9 runs") and "3 of them: pivoting on the patch" in first
+    assert "from 37.5 to 47.5 rev/s." in first and "at 42.5 rev/s." in of_reason(
+        replace(found, low=x[1], high=x[1]), 0, asked
+    )
     assert second == "1 of them: the time is too short."
     alone = replace(found, count=3, reasons=found.reasons[:1])
     assert "The reason: pivoting on the patch" in of_reason(alone, 0, asked)
@@ -160,6 +166,69 @@ def test_small_motions_grow_by_each_law_as_those_of_a_run_do():
         told = {(each.law, each.branch): each for each in by_law(asked, at_place(asked, (left, 5.7)))}
         grown = np.polyfit(moved.t[late], np.log(moved.theta[late]), 1)[0] / cell.scales.time
         assert grown == pytest.approx(told[law, "upright"].growth, rel=0.03), law
+
+
+def test_inverted_spin_that_is_too_slow_falls_as_a_run_does():
+    asked = Map(body="Top S", law="viscous", values=(("mu", 0.5),), across_range=(2.0, 16.0))
+    (told,) = (each for each in by_law(asked, at_place(asked, (6.0, 5.7)))
+               if (each.law, each.branch) == ("viscous", "inverted"))  # fmt: skip
+    cell = asked.at(6.0, 5.7)
+    C_J = slide(cell.top, cell.state, cell.friction, [0.0]).jellett[0]
+    unit = slide(cell.top, State(np.pi, 0, 0, 1.0, vx=0.0, vy=0.0), cell.friction, [0.0]).jellett[0]
+    start = State(np.pi - 1e-8, 0, 0, C_J / unit, vx=0.0, vy=0.0)
+    growth = told.growth * cell.scales.time
+    moved = slide(cell.top, start, cell.friction, np.linspace(0, 9 / growth, 2000), rtol=1e-11)
+    late = moved.t > 6 / growth
+    grown = np.polyfit(moved.t[late], np.log(np.pi - moved.theta[late]), 1)[0]
+    assert growth > 0 and grown == pytest.approx(growth, rel=0.03)
+
+
+def test_leaning_dies_out_and_goes_round_as_a_run_does_that_was_pushed():
+    """The nodding of top S about the tilt at which it hangs: how its peaks shrink, and how often they come."""
+    asked = Map(body="Top S", law="viscous", values=(("mu", 0.5),), across_range=(2.0, 16.0))
+    cell = asked.at(9.55, 5.7)
+    _, _, omega2, omega3, *_ = tumbling(cell.top, 1.95)
+    pushed = State(1.95, 0.0, 1.02 * omega2, omega3, vx=0.0, vy=0.0)
+    moved = slide(cell.top, pushed, cell.friction, np.linspace(0, 900, 6000), rtol=1e-11)
+    spin = moved.jellett[-1] / steady.launch(cell)
+    (told,) = (each for each in by_law(asked, at_place(asked, (spin, 5.7)))
+               if (each.law, each.branch) == ("viscous", "tumbling"))  # fmt: skip
+    away = np.abs(moved.theta - moved.theta[-1])
+    peaks = np.flatnonzero((away[1:-1] > away[:-2]) & (away[1:-1] > away[2:])) + 1
+    peaks = peaks[(moved.t[peaks] > 100) & (moved.t[peaks] < 500)]
+    t = moved.t[peaks] * cell.scales.time
+    assert np.polyfit(t, np.log(away[peaks]), 1)[0] == pytest.approx(told.growth, rel=0.05)
+    assert np.pi / np.diff(t).mean() == pytest.approx(told.turning, rel=0.01)
+
+
+def test_growth_is_of_spins_from_zero_on_and_none_of_a_map_without_any():
+    body = {"body": "Top S", "law": "viscous", "seconds": 0.1}
+    upright, *_ = rates(Map(across_range=(-10.0, 16.0), **body), (14.0, 5.7)).branches
+    assert upright.spin[0] == 0.0 and upright.spin[-1] == 16.0
+    assert rates(Map(across_range=(-20.0, -10.0), **body), (-14.0, 5.7)).branches == ()
+
+
+def test_what_goes_round_is_told_in_turns():
+    said = of_laws((OfLaw("viscous", "upright", 1.5, 2 * np.pi * 3), OfLaw("viscous", "tumbling", np.nan, np.nan)),
+                   {"spin": 28.6})  # fmt: skip
+    assert said.count("1.5; 3<") == 1 and "nan" not in said and "28.6 rev/s" in said
+
+
+def test_a_top_that_spins_the_other_way_has_as_many_pictures():
+    asked = Map(across_range=(-60.0, 60.0), law="viscous")
+    one, other = run(asked, 60.0, 5.7), run(asked, -60.0, 5.7)
+    assert CURVE < len(one.t) == len(other.t)
+    np.testing.assert_allclose(one.theta, other.theta, atol=1e-6)  # its mirror image
+
+
+def test_only_an_area_with_room_for_its_name_is_named():
+    level, figure = recall(Map()), MapFigure(lambda data: None)
+    for side, named in ((10, False), (16, True)):  # of 48 cells: 4 and 11 % of the map
+        ends = np.full(level.end.shape, "stem", level.end.dtype)
+        ends[10 : 10 + side, 10 : 10 + side] = "leaning"
+        figure.show(replace(level, end=ends), "end")
+        shown = [word.text for word in figure.words if word.visible]
+        assert ("leans, without nodding" in shown) is named
 
 
 def test_too_few_runs_for_a_power_are_not_called_none():

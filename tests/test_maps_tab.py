@@ -1,6 +1,7 @@
 """The tab Maps without a browser: requests, clicks, the address, and the sentences."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -56,6 +57,9 @@ def test_what_stands_below_the_map():
     good = np.isfinite(runs.data["y"])
     np.testing.assert_allclose(runs.data["y"][good], growth[good], rtol=0.05)
     assert "<table>" in below.powers.object
+    row = re.search(r"a real contact</th><td>([\d.]+); ([\d.]+)<", below.laws.object)
+    for name, told in zip(("growth", "turning"), row.groups(), strict=True):  # the figures say what the table says
+        assert np.interp(28.6, upright.data["x"], upright.data[name]) == pytest.approx(float(told), rel=0.02)
 
 
 @pytest.mark.parametrize("error, says", [(Full(17), "17 computations wait"), (Stopped(), "was stopped before")])
@@ -165,6 +169,15 @@ def test_as_many_reasons_as_there_are_can_be_gone_to():
         assert (tab.level.x[j], tab.level.y[i]) == one
 
 
+def test_pieces_are_shown_while_it_is_drawn(tab, monkeypatch):
+    seen = []
+    monkeypatch.setattr("app.tabs.maps.maps.PICTURE_EVERY", -1.0)  # every piece
+    monkeypatch.setattr(Maps, "_show_part", lambda tab, run, level, share: seen.append(int((level.end != "").sum())))
+    tab.settings.entries["seconds"].value = "0.3"
+    tab.settings.entries["cells"].value = "24"
+    assert len([cells for cells in seen if cells not in (8 * 8, 9 * 9, 24 * 24)]) > 3
+
+
 def test_the_map_is_in_the_address_and_undone():
     tab = Maps()
     keep = Keep()
@@ -190,6 +203,12 @@ def test_the_map_is_in_the_address_and_undone():
             MapText.value(odd)
 
 
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_a_link_has_the_map_of_its_own_body(preset):
+    asked = Map(body=preset.name)
+    assert MapText.value(MapText.text(asked)) == asked
+
+
 def test_the_pages_top_slides():
     assert Maps(scene=solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)).asked.body == "The paper's tippe top"
     own = Top(0.1, 0.42, 0.41)
@@ -198,6 +217,19 @@ def test_the_pages_top_slides():
     toy = next(preset for preset in PRESETS if preset.name == "Leine and Glocker's toy")
     tab.show(solve_scene(toy.top, 7.0, 10.0, 0.5, 0.5, shape=toy.shape))
     assert tab.asked.body == toy.name and tab.asked.own is None
+
+
+def test_a_link_has_the_map_of_the_pages_own_top():
+    own = Top(0.1, 0.42, 0.41)
+    scene = solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None)
+    text = MapText.text(replace(Maps(scene=scene).choice.asked, law="viscous", cells=3))
+    tab = Maps(scene=scene)
+    tab.choice.asked = MapText.value(text)
+    assert tab.asked.thing.top == own and tab.level.finest
+    assert MapText.text(tab.choice.asked) == text
+    stem = replace(Map(), across="stem", up="spin", across_range=(16.0, 40.0), up_range=(5.0, 50.0), cells=3)
+    tab.choice.asked = MapText.value(MapText.text(replace(stem, body=OWN)))  # which a top without a stem has not
+    assert tab.choice.asked == tab.usual["asked"] and tab.said.object
 
 
 def test_the_run_of_the_bead_goes_to_the_lab():

@@ -13,7 +13,7 @@ from typing import ClassVar
 import pytest
 from openid import SECRET, provider
 from serving import listens, served, until
-from test_faults import LOST, has_come_back, set_K_J
+from test_faults import has_come_back, set_K_J
 from visiting import Visit, free_port
 
 pytestmark = [pytest.mark.served, pytest.mark.slow]
@@ -163,7 +163,7 @@ def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(
                 Login.good.clear()
                 page.evaluate("window.mark = 1")
                 server.process.kill()
-                page.get_by_text(LOST).wait_for()
+                page.get_by_text("Sign in").wait_for(timeout=60_000)  # the login answers, so the page loads
             with served(tmp_path / "again", **settings):
                 page.get_by_text("Sign in").click(timeout=60_000)
                 has_come_back(page, "6.5")
@@ -189,7 +189,7 @@ def test_a_login_of_apache_that_ran_out_is_asked_for_again_and_leads_back_to_wha
             set_K_J(page, "6.6")  # an open page stays open
             page.evaluate("window.mark = 1")
             server.process.kill()
-            page.get_by_text(LOST).wait_for()
+            page.get_by_text("Sign in").wait_for(timeout=60_000)  # the login answers, so the page loads
         with served(tmp_path / "again", **settings):
             page.get_by_text("Sign in").click(timeout=60_000)
             has_come_back(page, "6.6")

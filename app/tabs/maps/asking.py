@@ -49,7 +49,7 @@ class Settings:
     def view(self):
         """In the order of the drawing: the axes, the colour, the law; then ranges and numbers."""
         entry = self.entries
-        ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80),
+        ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80, align="center"),
                        *(beside(say(f"maps.{end}"), entry[f"{side}_{end}"]) for end in LIMITS), margin=(4, 0))
                   for side in SIDES]  # fmt: skip
         selects = [self.choices[name] for name in ("across", "up", "colour", "law")]
@@ -59,8 +59,8 @@ class Settings:
     @property
     def place_view(self):
         """The position of the bead."""
-        return flow(words(say("maps.here"), sizing_mode=None), *(self.entries[f"here_{side}"] for side in SIDES),
-                    margin=(4, 0))  # fmt: skip
+        label = words(say("maps.here"), sizing_mode=None, align="center")
+        return flow(label, *(self.entries[f"here_{side}"] for side in SIDES), margin=(4, 0))
 
     @contextmanager
     def _quietly(self):

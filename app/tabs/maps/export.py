@@ -14,7 +14,7 @@ from app.model.maps.lines import lines
 from app.model.maps.maps import QUANTITIES, SECONDS, UNITS, Map
 from app.tabs.maps.picture import DASHES as STYLES
 from app.tabs.maps.picture import half_step, span
-from app.tabs.maps.words import title, with_unit
+from app.tabs.maps.words import body_of, title, with_unit
 from app.text import listed, say, written
 
 DPI = 300
@@ -142,8 +142,7 @@ def _fixed(asked):
     said = [f"{named[name]} {written(value, '.4g')} {QUANTITIES[name].unit}".strip() for name, value in values.items()]
     if second is not None and SECONDS[asked.law]:
         said.append(f"{listed('maps.seconds_of')[asked.law]}: {written(second, '.4g')}")
-    body = listed("build.presets")[asked.body]["name"] if asked.own is None else ""
-    return "; ".join(filter(None, (body, listed("maps.laws")[asked.law], ", ".join(said))))
+    return "; ".join(filter(None, (body_of(asked), listed("maps.laws")[asked.law], ", ".join(said))))
 
 
 def python(asked: Map):

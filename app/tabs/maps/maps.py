@@ -22,7 +22,7 @@ from app.tabs.maps.export import KINDS, made, python
 from app.tabs.maps.picture import MapFigure, RunFigure
 from app.tabs.maps.stage import map_stage, show_run
 from app.tabs.maps.steady import Steady
-from app.tabs.maps.words import colours_say, of_reason, of_run, of_worst, title, with_unit
+from app.tabs.maps.words import body_of, colours_say, of_reason, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, alert, flow, note, on_click, progress, words
 from app.widgets.copy import Copy
@@ -164,12 +164,17 @@ class Maps:
         colour = self.choice.colour
         asked = replace(self.choice.asked, nudged=colour == "growth")
         if asked.body == OWN and asked.own is None:  # from a link, in which the page's top is given separately
-            asked = replace(asked, body=(self._seen or (asked.body, None))[0], own=(self._seen or (None, None))[1])
+            body, own = self._seen or (MAP.body, None)
+            try:
+                self.choice.asked = replace(self.choice.asked, body=body, own=own)  # draws it
+            except TopError as error:
+                self.choice.asked = self.usual["asked"]
+                self.said.object = alert(told(error))
+            return
         self.settings.show(self.choice.asked, colour, self.choice.place)
         self.said.object = ""
-        self.head.object = f"<h2>{title(asked, colour)}</h2>" + note(
-            say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
-        )
+        count = say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
+        self.head.object = f"<h2>{title(asked, colour)}</h2>" + note(": ".join(filter(None, (body_of(asked), count))))
         if asked == self.asked and self.level is not None:
             self._show(self.level)
             return

@@ -67,9 +67,10 @@ def of_worst(level):
 def of_reason(found, k, asked):
     """The reason number k why runs differ from a closed form; before the first one, where they do."""
     low, high = written(found.low, ".3g"), _measured(found.high, asked.across)
+    where = say("maps.range", low=low, high=high) if found.low < found.high else say("maps.at", value=high)
     says, (why, count, _) = "", found.reasons[k]
     if k == 0:
-        says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=low, high=high) + " "
+        says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, where=where) + " "
     says += say("maps.of_them" if len(found.reasons) > 1 else "maps.of_all", count=count)
     return says + " " + say(f"maps.why.{why}")
 
@@ -78,6 +79,11 @@ def _measured(value, name):
     """A value of a quantity with its unit."""
     unit = unit_of(name)
     return written(value, ".3g") + (f" {unit}" if unit not in ("", "°") else unit)
+
+
+def body_of(asked):
+    """The name of the body that slides, if it has one."""
+    return "" if asked.own else listed("build.presets")[asked.body]["name"]
 
 
 def title(asked, colour):
