@@ -39,8 +39,7 @@ const load = (path, ...more) => {
 };
 window.importShim = Object.setPrototypeOf(load, theirs);
 // run while the server makes the session
-const runAll = () => ours.forEach((href) => import(href).catch(console.error));
-addEventListener("DOMContentLoaded", () => setTimeout(runAll));
+setTimeout(() => ours.forEach((href) => import(href).catch(console.error)));
 
 // 3. A React component reads its values when it is drawn and listens for their changes only after that; what came in between,
 // it never showed. Here it reads them once more as it begins to listen. No issue that we found.

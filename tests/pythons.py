@@ -71,9 +71,9 @@ def look(url, browser):
         visit = Visit(page, url)
         rooms = ("Three planes", "Build a top", "Families", "Learn", "Lab", "Maps", "Measure")  # visit is at Roll
         for room, name in zip(rooms, visitors.ROOMS, strict=True):
-            waits = page.evaluate("n => Bokeh.documents[0].get_model_by_name(n).children[0].id", f"place of {name}")
+            waits = page.evaluate("n => Bokeh.documents[0].get_model_by_name(n).children[0].id", f"place-of-{name}")
             go_to(page, room)
-            page.wait_for_function(STANDS, arg=[f"place of {name}", waits], timeout=PATIENCE)
+            page.wait_for_function(STANDS, arg=[f"place-of-{name}", waits], timeout=PATIENCE)
         print(f"    Chromium: {len(rooms)} rooms opened, {len(visit.errors)} errors in the page", *visit.errors)
         return not visit.errors
     except Exception as error:

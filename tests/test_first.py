@@ -80,6 +80,40 @@ def test_it_moves_without_bokeh_and_a_session(server, chromium):
     page.close()
 
 
+@pytest.mark.served
+def test_bokeh_is_asked_for_after_it_and_no_font_at_all(server, chromium):
+    page, order = chromium.new_page(viewport={"width": 1400, "height": 900}), []
+    page.set_default_timeout(PATIENCE)
+    page.on("request", lambda request: order.append(("asked", request.resource_type, request.url)))
+    page.on("requestfinished", lambda request: order.append(("came", request.resource_type, request.url)))
+    page.goto(f"{server}?")
+    page.wait_for_function("window.Bokeh?.documents?.[0]?.is_idle")
+    page.locator("#first").wait_for(state="detached")
+    early = json.loads(page.locator("#early").inner_text())
+    bundle, *others = early["bundles"]
+
+    def place(step, name):
+        return next(i for i, (what, _, url) in enumerate(order) if what == step and name in url)
+
+    needed = max(place("came", name.split("?")[0].lstrip(".")) for name in (bundle, early["numbers"]))
+    rest = ["bokeh.min.js", "panel.min.js", *(name.split("?")[0].lstrip(".") for name in others)]
+    assert min(place("asked", name) for name in rest) > needed
+    assert not [url for _, kind, url in order if kind == "font"]
+    page.close()
+
+
+@pytest.mark.served
+@pytest.mark.parametrize("lost", ["arrival.gz", "static/tippe.js"])
+def test_the_rest_comes_even_where_it_does_not(server, chromium, lost):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    page.set_default_timeout(PATIENCE)
+    page.route(f"**/*{lost}*", lambda route: route.abort())
+    page.goto(f"{server}?")
+    page.wait_for_function("window.Bokeh?.documents?.length")
+    assert page.locator("#first").is_hidden()
+    page.close()
+
+
 @pytest.fixture
 def waiting(server, chromium):
     """A page whose session has not arrived, and a function that lets it arrive."""

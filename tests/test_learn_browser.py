@@ -252,6 +252,8 @@ def test_a_class_with_two_phones(browser, phones, server):
         visiting.page.get_by_role("heading", name=say("learn.flips.question", language)).wait_for()
         visiting.page.get_by_text(say("teach.room.vote", language)).wait_for()
         assert visiting.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    students[1].page.emulate_media(color_scheme="dark")
+    students[1].page.wait_for_function("document.documentElement.dataset.look === 'dark'")
     page.keyboard.press("Escape")
     page.locator(".lesson.present").wait_for(state="detached")
     for each in (*students, visit):

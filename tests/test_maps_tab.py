@@ -1,6 +1,7 @@
 """The tab Maps without a browser: requests, clicks, the address, and the sentences."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -216,6 +217,19 @@ def test_the_pages_top_slides():
     toy = next(preset for preset in PRESETS if preset.name == "Leine and Glocker's toy")
     tab.show(solve_scene(toy.top, 7.0, 10.0, 0.5, 0.5, shape=toy.shape))
     assert tab.asked.body == toy.name and tab.asked.own is None
+
+
+def test_a_link_has_the_map_of_the_pages_own_top():
+    own = Top(0.1, 0.42, 0.41)
+    scene = solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None)
+    text = MapText.text(replace(Maps(scene=scene).choice.asked, law="viscous", cells=3))
+    tab = Maps(scene=scene)
+    tab.choice.asked = MapText.value(text)
+    assert tab.asked.thing.top == own and tab.level.finest
+    assert MapText.text(tab.choice.asked) == text
+    stem = replace(Map(), across="stem", up="spin", across_range=(16.0, 40.0), up_range=(5.0, 50.0), cells=3)
+    tab.choice.asked = MapText.value(MapText.text(replace(stem, body=OWN)))  # which a top without a stem has not
+    assert tab.choice.asked == tab.usual["asked"] and tab.said.object
 
 
 def test_the_run_of_the_bead_goes_to_the_lab():

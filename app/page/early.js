@@ -1,8 +1,47 @@
 // The language of the page, and the Lab of the arrival, before any script of Bokeh's: first.py says what with, and why.
-const { language, bundles: [bundle], numbers, searches } = JSON.parse(document.getElementById("early")?.textContent ?? "");
+const { language, bundles: [bundle, ...others], numbers, searches } = JSON.parse(document.getElementById("early")?.textContent ?? "");
 document.documentElement.lang = language;
+
+// Bokeh's scripts come after it. What the page asks of Bokeh until then is kept.
+const PATIENCE = 4000; // ms
+/** @type {any} */
+const here = window;
+/** @type {(() => void)[]} */
+const asked = [];
+const standIn = (here.Bokeh = { safely: (what) => asked.push(what) });
+const parsed = new Promise((resolve) => addEventListener("DOMContentLoaded", resolve));
+
+/** @param {HTMLScriptElement} script */
+function insert(script) {
+  const again = document.createElement("script");
+  for (const { name, value } of script.attributes) again.setAttribute(name, value);
+  again.text = script.text;
+  again.async = false; // in the order of the page
+  document.body.append(again);
+  return again.src && new Promise((resolve) => ["load", "error"].forEach((name) => again.addEventListener(name, resolve)));
+}
+
+let isTime = false;
+async function later() {
+  if (isTime) return;
+  isTime = true;
+  await parsed;
+  for (const href of others) document.head.append(Object.assign(document.createElement("link"), { rel: "modulepreload", href }));
+  const { content } = /** @type {HTMLTemplateElement} */ (document.getElementById("later"));
+  /** @type {any[]} */
+  const coming = [];
+  for (const script of content.querySelectorAll("script")) {
+    if (!script.src) await Promise.all(coming);
+    coming.push(insert(script));
+  }
+  if (here.Bokeh === standIn) return void delete here.Bokeh; // did not come: the page says so
+  for (const what of asked) here.Bokeh.safely(what);
+}
+
 const spoken = searches[location.search]; // of an address that asks for nothing else but a language
-if (spoken !== undefined) {
+if (spoken === undefined) later();
+else {
   const file = fetch(numbers);
-  import(new URL(bundle, document.baseURI).href).then((ours) => ours.default.first(file, spoken)).catch(console.error);
+  import(new URL(bundle, document.baseURI).href).then((ours) => ours.default.first(file, spoken)).catch(console.error).finally(later);
+  setTimeout(later, PATIENCE);
 }

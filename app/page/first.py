@@ -3,7 +3,8 @@ there.
 
 On arrival the Lab is the same in every session. Its words are written into the page; its numbers are in a file that the
 browser caches. early.js requests the file, frontend/src/first.js draws both, and hands the picture over to the
-session's component once that is there.
+session's component once that is there. Bokeh's scripts and the widgets' bundle, four times as large, are fetched
+after that; on any other address at once.
 
     python -m app.page.first
 
@@ -29,6 +30,7 @@ from app.state.keep import VERSION
 from app.tabs.lab import room
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
+from app.widgets.theme import FAMILY
 
 PAGE = Path(__file__).with_name("first.html")
 EARLY, BORROWED = inlined(PAGE.with_name("early.js")), inlined(PAGE.parents[1] / "borrowed.js")
@@ -96,7 +98,7 @@ def variables(language):
     early = {"language": language, "bundles": bundles, "searches": searches(),
              "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
     return {"bundles": bundles, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
-            "early_script": EARLY, "borrowed": BORROWED}  # fmt: skip
+            "early_script": EARLY, "borrowed": BORROWED, "family": FAMILY}  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -46,12 +46,13 @@ def page():
     SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
     texts, sentence = read(search)  # in this language
     failed = failure()
+    look = Look(width=0, height=0, margin=0)
     if VOTE in texts:  # the link of a student
-        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed],
+        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), look, failed],
                          stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts, search))
     pacer, keep = house.pacer, house.keep
-    look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), PageLanguage()
+    guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
                   lambda: house.start.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
                   worksheet)  # fmt: skip

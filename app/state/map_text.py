@@ -1,7 +1,7 @@
 """A map of runs in the address."""
 
 from app.model.maps.choice import FIXED
-from app.model.maps.maps import QUANTITIES, Map
+from app.model.maps.maps import OWN, QUANTITIES, Map
 from app.state.codecs import Number
 from tippe_core import PRESETS, TopError
 
@@ -29,14 +29,14 @@ class MapText:
         parts = text.split("_")
         if not 10 <= len(parts) <= 10 + 2 * len(QUANTITIES) or len(parts) % 2:
             raise TopError("map", text, "across_from_to_up_from_to_law_body_seconds_cells")
-        across, left, right, up, bottom, top, law, body, seconds, cells, *fixed = parts
+        across, left, right, up, bottom, top, law, which, seconds, cells, *fixed = parts
         number = Number.value
-        which = int(number(body))
-        own = {} if not 1 <= which <= len(PRESETS) else {"body": PRESETS[which - 1].name}
+        which = int(number(which))
+        body = PRESETS[which - 1].name if 1 <= which <= len(PRESETS) else OWN
         values = tuple((name, number(value)) for name, value in zip(fixed[::2], fixed[1::2], strict=True))
         for name, _ in values:
             if name not in FIXED:
                 raise TopError("map", name, ", ".join(FIXED))
         return Map(across=across, up=up, across_range=(number(left), number(right)), law=law,
                    up_range=(number(bottom), number(top)), seconds=number(seconds), cells=int(number(cells)),
-                   values=values, **own)  # fmt: skip
+                   values=values, body=body)  # fmt: skip

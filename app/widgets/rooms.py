@@ -23,7 +23,7 @@ class Place:
         self._make, self._soon, self._view, self._asked = make, soon, None, False
         self._failed = False
         self.column = pn.Column(
-            self._waiting(), name=f"place of {name}", sizing_mode="stretch_width", margin=0, visible=False
+            self._waiting(), name=f"place-of-{name}", sizing_mode="stretch_width", margin=0, visible=False
         )
 
     @staticmethod

@@ -18,7 +18,7 @@ export const style = `
 .labels .axis { font: calc(15px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
 .labels .axis sub, .labels .axis sup, .readout sub, .readout sup { font-size: 70%; line-height: 0; }
 .labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
-.labels .handle { width: 22px; height: 22px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid ${colours.chosen};
+.labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid ${colours.chosen};
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
 .labels .handle:active { cursor: grabbing; }
 .labels .handle:focus-visible { outline: 3px solid var(--scene-ink, #1d2733); outline-offset: 2px; }

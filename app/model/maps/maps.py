@@ -125,7 +125,7 @@ class Map:
     @property
     def thing(self) -> Body:
         """The sliding body."""
-        return self.own or of_preset(self.body)
+        return self.own or of_preset(self.body or Map.body)  # of a link until the page's top is known: any
 
     @property
     def start(self) -> dict[str, float]:

@@ -164,7 +164,13 @@ class Maps:
         colour = self.choice.colour
         asked = replace(self.choice.asked, nudged=colour == "growth")
         if asked.body == OWN and asked.own is None:  # from a link, in which the page's top is given separately
-            asked = replace(asked, body=(self._seen or (asked.body, None))[0], own=(self._seen or (None, None))[1])
+            body, own = self._seen or (MAP.body, None)
+            try:
+                self.choice.asked = replace(self.choice.asked, body=body, own=own)  # draws it
+            except TopError as error:
+                self.choice.asked = self.usual["asked"]
+                self.said.object = alert(told(error))
+            return
         self.settings.show(self.choice.asked, colour, self.choice.place)
         self.said.object = ""
         count = say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)

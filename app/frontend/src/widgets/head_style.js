@@ -40,7 +40,7 @@ select { border: 0; background: var(--ground); min-height: calc(32px * var(--typ
   .row { padding: 0 4px 0 16px; } .toy { flex: 1; max-width: none; } .row > .grow { display: none; } .icon, .menu button, .menu label { min-height: 44px; } .icon { width: 44px; }
   nav { position: fixed; inset: auto 0 0; z-index: 20; background: var(--ground); border-top: 1px solid var(--rule, #d8dce0); padding-bottom: env(safe-area-inset-bottom); }
   .tabs > div { display: grid; grid-auto-flow: column; grid-auto-columns: 1fr; } .tabs button { padding: 0 2px; min-height: 52px; font-size: calc(12px * var(--type, 1)); }
-  .tabs [aria-selected=true]::after { inset: 0 4px auto; } .rooms { padding: 8px 12px 0; overflow-x: auto; }
+  .tabs [aria-selected=true]::after { inset: 0 4px auto; } .rooms { padding: 8px 12px 0; overflow-x: auto; } .rooms:not(.table) button { white-space: normal; padding: 4px 10px; }
   .table:not(.three) { left: 20px; top: calc(48px * var(--type, 1) + 8px); padding: 3px; } .table b { display: none; } .table button { padding: 0 9px; min-height: 44px; }
 }
 `;
