@@ -127,8 +127,8 @@ def page(cells, starts, found, last, rtol=None):
     yield from ("# Where the paper’s top ends", "")
     yield (f"The final state of the paper’s top with its stem after {SECONDS:g} s, with `SmoothedCoulomb(0.3, 0.1)`: "
            f"{cells} × {cells} runs of `slide_many`, one for each cell. `python tests/basins.py {cells}` computes "
-           f"them; `make proof` computes {CELLS} × {CELLS}, which takes 1.3 hours of one core and can be stopped and "
-           "continued."
+           "them (for 400 × 400, as `make proof` does, 1.3 hours of one core) and can be stopped and continued; what "
+           "was run is kept in `tests/data/basins`."
            )  # fmt: skip
     yield from ("", "![Ends over spin and tilt](basins.png)", "")
     fastest = ", ".join(f"{spin:.0f} rev/s below {tilt} degrees" for tilt, spin in last.items())
@@ -166,15 +166,20 @@ def page(cells, starts, found, last, rtol=None):
                "often neighbours differ, if all are computed in the same way, is not.")  # fmt: skip
 
 
+def computed(cells, folder, wait=False):
+    """(ends of the map, {(low, high): ends of pairs()}, the share that ends otherwise with steps a thousand times as
+    exact); wait: only what is kept."""
+    end, _ = mapped(folder, cells, wait)
+    found = {between: pairs(folder, *between, wait=wait) for between in ((SPINS[0], SPLIT), (SPLIT, SPINS[1]))}
+    exact = pairs(folder, SPINS[0], SPLIT, rtol=1e-9, wait=wait)
+    return end, found, (exact[:, 0] != found[SPINS[0], SPLIT][:, 0]).mean()
+
+
 def main(cells=CELLS, folder=KEPT):
-    end, _ = mapped(folder, cells)
-    found = {between: pairs(folder, *between) for between in ((SPINS[0], SPLIT), (SPLIT, SPINS[1]))}
-    exact = pairs(folder, SPINS[0], SPLIT, rtol=1e-9)
+    end, found, other = computed(cells, folder)
     drawn(end)
-    other = (exact[:, 0] != found[SPINS[0], SPLIT][:, 0]).mean()
-    (DOCS / "basins.md").write_text(
-        "\n".join(page(cells, STARTS, found, last_borders(end), other)) + "\n", encoding="utf-8"
-    )
+    text = "\n".join(page(cells, STARTS, found, last_borders(end), other)) + "\n"
+    (DOCS / "basins.md").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -42,3 +42,24 @@ def test_what_was_run_is_not_run_again(monkeypatch, tmp_path):
     spins, tilts = (low + (high - low) * (np.arange(6) + 0.5) / 6 for low, high in (basins.SPINS, basins.TILTS))
     assert (end == np.where(spins > 40, *map(basins.WORDS.index, ("stem", "upright")))[None]).all()
     assert (hops == np.round(tilts)[:, None]).all()
+
+
+@pytest.mark.slow
+def test_the_page_says_what_was_run():
+    end, found, other = basins.computed(basins.CELLS, basins.KEPT, wait=True)
+    assert not (end == basins.NONE).any()
+    lines = basins.page(basins.CELLS, basins.STARTS, found, basins.last_borders(end), other)
+    assert (basins.DOCS / "basins.md").read_text(encoding="utf-8") == "\n".join(lines) + "\n"
+
+
+@pytest.mark.slow
+def test_what_is_kept_is_what_runs_give():
+    """At twelve random cells whose neighbours all end alike: near a border the last digits of a machine decide."""
+    end, _ = basins.mapped(basins.KEPT, basins.CELLS, wait=True)
+    shifted = [np.roll(end, (up, across), (0, 1)) for up in (-1, 0, 1) for across in (-1, 0, 1)]
+    calm = np.all([each == end for each in shifted], axis=0)[1:-1, 1:-1]
+    rows, columns = np.random.default_rng(7).permutation(np.argwhere(calm))[:12].T + 1
+    spins, tilts = (low + (high - low) * (at + 0.5) / basins.CELLS
+                    for at, (low, high) in ((columns, basins.SPINS), (rows, basins.TILTS)))  # fmt: skip
+    words, _ = basins.ended(spins, tilts)
+    assert [basins.WORDS.index(word) for word in words] == end[rows, columns].tolist()
