@@ -42,7 +42,7 @@ async def open_rooms(page):
 
     for room in ROOMS:
         [place] = [id for id in page.visitor.find("panel.models.layout.Column", "name")
-                   if page.now(id, "name") == f"place of {room}"]  # fmt: skip
+                   if page.now(id, "name") == f"place-of-{room}"]  # fmt: skip
         [waits] = stands(place)
         await page.head("room", room)
         await page.until(lambda place=place, waits=waits: len(stands(place)) == 1 and stands(place) != [waits])
