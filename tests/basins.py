@@ -127,8 +127,8 @@ def page(cells, starts, found, last, rtol=None):
     yield from ("# Where the paper’s top ends", "")
     yield (f"The final state of the paper’s top with its stem after {SECONDS:g} s, with `SmoothedCoulomb(0.3, 0.1)`: "
            f"{cells} × {cells} runs of `slide_many`, one for each cell. `python tests/basins.py {cells}` computes "
-           "them (for 400 × 400, as `make proof` does, 1.3 hours of one core) and can be stopped and continued; what "
-           "was run is kept in `tests/data/basins`."
+           f"them (for {CELLS} × {CELLS}, as `make proof` does, 1.3 hours of one core) and can be stopped and "
+           "continued; what was run is kept in `tests/data/basins`."
            )  # fmt: skip
     yield from ("", "![Ends over spin and tilt](basins.png)", "")
     fastest = ", ".join(f"{spin:.0f} rev/s below {tilt} degrees" for tilt, spin in last.items())

@@ -147,6 +147,21 @@ class Login(BaseHTTPRequestHandler):
         pass
 
 
+def signs_in(page, root):
+    """Opens the page through the login, and moves K_J."""
+    page.goto(f"{root}/tops/app?tab=roll")
+    page.get_by_text("Sign in").click()
+    page.wait_for_function("window.__tippe?.top3d?.pictures > 2", timeout=60_000)
+    set_K_J(page, "6.5")
+
+
+def loses(page, server):
+    """The server goes, and the page is loaded again."""
+    page.evaluate("window.mark = 1")
+    server.process.kill()
+    page.get_by_text("Sign in").wait_for(timeout=60_000)  # the login answers, so the page loads
+
+
 def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(page, tmp_path):
     """oauth2-proxy itself is not available: Login stands in for it."""
     login = ThreadingHTTPServer(("127.0.0.1", 0), Login)
@@ -156,14 +171,9 @@ def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(
     try:
         with proxied("nginx", tmp_path, port, login.server_port) as root:
             with served(tmp_path / "log", **settings) as server:
-                page.goto(f"{root}/tops/app?tab=roll")
-                page.get_by_text("Sign in").click()
-                page.wait_for_function("window.__tippe?.top3d?.pictures > 2", timeout=60_000)
-                set_K_J(page, "6.5")
+                signs_in(page, root)
                 Login.good.clear()
-                page.evaluate("window.mark = 1")
-                server.process.kill()
-                page.get_by_text("Sign in").wait_for(timeout=60_000)  # the login answers, so the page loads
+                loses(page, server)
             with served(tmp_path / "again", **settings):
                 page.get_by_text("Sign in").click(timeout=60_000)
                 has_come_back(page, "6.5")
@@ -181,15 +191,10 @@ def test_a_login_of_apache_that_ran_out_is_asked_for_again_and_leads_back_to_wha
         asked = page.context.request
         with served(tmp_path / "log", **settings) as server:
             assert asked.get(f"{root}/tops/readyz", headers={"Sec-Fetch-Mode": "cors"}).status == 401
-            page.goto(f"{root}/tops/app?tab=roll")
-            page.get_by_text("Sign in").click()
-            page.wait_for_function("window.__tippe?.top3d?.pictures > 2", timeout=60_000)
-            set_K_J(page, "6.5")
+            signs_in(page, root)
             until(lambda: asked.get(f"{root}/tops/readyz", headers={"Sec-Fetch-Mode": "cors"}).status == 401, 60)
             set_K_J(page, "6.6")  # an open page stays open
-            page.evaluate("window.mark = 1")
-            server.process.kill()
-            page.get_by_text("Sign in").wait_for(timeout=60_000)  # the login answers, so the page loads
+            loses(page, server)
         with served(tmp_path / "again", **settings):
             page.get_by_text("Sign in").click(timeout=60_000)
             has_come_back(page, "6.6")

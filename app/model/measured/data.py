@@ -1,5 +1,6 @@
 """Measured data in s, rad and m: the columns of a Table with the quantities and units that the visitor confirmed."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
@@ -19,6 +20,11 @@ CAN_BE = {
 }
 FAR = -5.0, 5.0  # m
 """{quantity: what a film of a top can show of it}, in rad and rad/s; FAR for all lengths. Beyond, the unit is wrong."""
+
+
+def are_handed(quantities: Iterable[str]) -> bool:
+    """Whether quantities that were measured tell a motion from its mirror image."""
+    return not HANDED.isdisjoint(quantities)
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +51,7 @@ class Data:
     @property
     def handed(self) -> bool:
         """Whether these data tell a motion from its mirror image."""
-        return not HANDED.isdisjoint(self.series)
+        return are_handed(self.series)
 
     def between(self, start: float, end: float) -> "Data":
         """The Data from start to end (s). Raises MeasuredError if they are fewer than eight values."""

@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2 as chi_square
 from scipy.stats import norm
 
-from app.model.measured.data import HANDED, Data
+from app.model.measured.data import Data, are_handed
 from app.model.measured.known import RISE, known
 from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, Model, Residuals, residuals_of, shifted
 from app.model.measured.starts import around, scattered, starts
@@ -83,7 +83,7 @@ class Fit:
     @property
     def handed(self) -> bool:
         """Whether the data tell the motion from its mirror image; otherwise spin is positive."""
-        return not HANDED.isdisjoint(self.residuals.of)
+        return are_handed(self.residuals.of)
 
     @property
     def correlation(self) -> Array:
