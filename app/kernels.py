@@ -12,9 +12,11 @@ from pathlib import Path
 
 import tippe_core
 from tippe_core import kept
+from tippe_core.__main__ import WATCHING
 from tippe_core.ahead import compile_all
 from tippe_core.compiled import ahead, why_not
 
+DAY = 86400.0  # s
 NICE = 5  # the lower priority of the compiler; visitors are answered more slowly until it is done
 log = logging.getLogger("tippe")
 _compiling = threading.Event()
@@ -35,12 +37,22 @@ def compile_beside() -> None:
     warnings.filterwarnings("ignore", category=RuntimeWarning, module="tippe_core")
     if reason := why_not():
         log.info("kernels run as Python, some hundred times slower than compiled: %s", reason)
-    elif not kept.complete(kept.folder()):
+        return
+    if folder := kept.folder():
+        threading.Thread(target=_use, args=(folder,), name="kernels in use", daemon=True).start()
+    if not kept.complete(folder):
         log.info("no compiled kernels are kept for this version and processor: they are compiled beside the server, "
                  "which computes in Python until then. `python -m tippe_core` does it ahead")  # fmt: skip
         begun = threading.Event()
         threading.Thread(target=_compile, args=(begun,), name="compiler", daemon=True).start()
         begun.wait()
+
+
+def _use(folder: Path) -> None:
+    """Another version removes what nothing has used for long, and a server may run for longer."""
+    while True:
+        kept.used(folder)
+        time.sleep(DAY)
 
 
 def _compile(begun: threading.Event) -> None:
@@ -63,15 +75,18 @@ def _compile(begun: threading.Event) -> None:
 
 
 def _compile_in_a_process() -> None:
-    """A thread that compiles would take turns with the other threads of this process at the interpreter."""
+    """A thread that compiles would take turns with the other threads of this process at the interpreter. The child ends
+    with this process: its standard input is a pipe that nobody writes to, and the system closes it however this ends.
+    """
     home = Path(tippe_core.__file__).parent.parent
     path = os.pathsep.join(filter(None, (str(home), os.environ.get("PYTHONPATH"))))
     low = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)  # Windows
-    process = subprocess.Popen([sys.executable, "-m", "tippe_core"], env=os.environ | {"PYTHONPATH": path},
-                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                               text=True, creationflags=low)  # fmt: skip
-    if hasattr(os, "setpriority"):
-        os.setpriority(os.PRIO_PROCESS, process.pid, NICE)
-    said = process.communicate()[1]
+    with subprocess.Popen([sys.executable, "-m", "tippe_core", WATCHING], env=os.environ | {"PYTHONPATH": path},
+                          stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                          creationflags=low) as process:  # fmt: skip
+        if hasattr(os, "setpriority"):
+            os.setpriority(os.PRIO_PROCESS, process.pid, NICE)
+        assert process.stderr
+        said = process.stderr.read()  # not communicate(), which closes the input
     if process.returncode:
         log.warning("compiling in a process of its own failed: %s", said.strip().rpartition("\n")[2])

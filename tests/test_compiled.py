@@ -6,9 +6,12 @@ import json
 import os
 import pkgutil
 import shutil
+import signal
 import subprocess
 import sys
 import threading
+import time
+from contextlib import suppress
 from decimal import Decimal
 from importlib import import_module
 from math import inf
@@ -121,7 +124,51 @@ def test_a_callee_in_another_file_that_changed_is_noticed(package):
     (package.folder / "callee.py").write_text(CALLEE.replace("x * y", "x - y"))
     value, compiled_now, *_, after = package.run()
     assert (value, compiled_now) == (0.0, 1)
-    assert package.found() == [Path(after).name] != [Path(before).name]  # and the old ones are gone
+    assert package.found() == sorted({Path(before).name, Path(after).name}) and len(package.found()) == 2
+
+
+def test_versions_that_share_a_folder_keep_each_others_kernels(tmp_path):
+    """Started in turn, as around a roll-back, or beside each other."""
+    versions = []
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+        versions.append(Package(tmp_path / name))
+    (versions[1].folder / "callee.py").write_text(CALLEE + "# changed\n")
+    shared = str(tmp_path / "shared")
+    started = [each.run(NUMBA_CACHE_DIR=shared) for each in versions * 2]
+    assert [(compiled_now, found) for _, compiled_now, found, *_ in started] == [(1, 0), (1, 0), (0, 1), (0, 1)]
+    assert [folder for *_, folder in started[:2]] == [folder for *_, folder in started[2:]]
+
+
+def aged(path, days):
+    """A folder that was last used so many days ago."""
+    path.mkdir(parents=True)
+    (path / "a.nbc").touch()
+    os.utime(path, (then := time.time() - 86400 * days, then))
+    return path
+
+
+def test_what_nothing_has_used_for_long_goes_once_another_folder_is_complete(tmp_path, monkeypatch):
+    recent, own = (aged(tmp_path / f"kernels-cpython-311-generic-{16 * mark}", days)
+                   for mark, days in (("a", 29), ("b", 31)))  # fmt: skip
+    aged(tmp_path / f"kernels-cpython-310-generic-{16 * 'c'}", 31)
+    others = aged(tmp_path / "kernels-of-something-else", 400)
+    monkeypatch.setattr("tippe_core.ahead.CALLS", ())
+    monkeypatch.setattr("tippe_core.ahead.not_kept", lambda: "")
+    monkeypatch.setattr(kept, "folder", lambda: own)
+    compile_all()
+    assert kept.complete(own) and sorted(tmp_path.iterdir()) == sorted([recent, own, others])
+
+
+def test_looking_up_a_folder_removes_nothing_and_dates_it(package):
+    found = Path(package.run()[-1])
+    old = aged(found.parent / f"kernels-cpython-311-generic-{16 * 'a'}", 400)
+    for complete in (False, True):
+        if complete:
+            kept.mark(found)
+        os.utime(found, (0, 0))
+        assert package.run()[-1] == str(found)
+        assert found.stat().st_mtime > time.time() - 3600 and old.is_dir()
 
 
 def test_what_a_process_had_to_compile_is_known(package):
@@ -324,3 +371,43 @@ def test_a_server_that_finds_no_kernels_answers_while_they_are_compiled(command,
     with serving(told, log, ROOT):
         pass
     assert "kernels" not in log.read_text()
+
+
+def descendants(pid):
+    """{process: its command} of all that a process started, and what these did."""
+    found = {}
+    for task in Path(f"/proc/{pid}/task").glob("*/children"):
+        for child in map(int, task.read_text().split()):
+            with suppress(OSError):  # has just ended
+                found |= {child: Path(f"/proc/{child}/cmdline").read_text()} | descendants(child)
+    return found
+
+
+def runs(pid):
+    """Whether a process has not ended."""
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+    return False
+
+
+@pytest.mark.served
+@pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+@pytest.mark.parametrize(("command", "end"), [
+    ("app", signal.SIGTERM), ("app", signal.SIGKILL), ("app --workers 2", signal.SIGINT),
+    ("app --workers 2", signal.SIGKILL), ("panel serve app", signal.SIGINT),
+    ("panel serve app", signal.SIGKILL)])  # fmt: skip
+def test_what_compiles_for_a_server_ends_with_it(command, end, tmp_path):
+    told = ["env", f"NUMBA_CACHE_DIR={tmp_path / 'kernels'}", sys.executable, "-m", *command.split()]
+    many = 2 if "2" in command else 1
+    with serving(told, tmp_path / "log", ROOT) as server:
+
+        def compilers():
+            return [each for each, line in descendants(server.process.pid).items() if "\0tippe_core\0" in line]
+
+        until(lambda: len(compilers()) == many, 60)
+        started = compilers()
+        server.process.send_signal(end)
+        server.process.wait(60)
+        until(lambda: not any(map(runs, started)), 60)
+    assert not any(map(kept.complete, (tmp_path / "kernels").iterdir()))  # nor did it end because it was done

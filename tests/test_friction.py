@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, TopError, Viscous
-from tippe_core.motion.friction import bounds, push
+from tippe_core.motion.friction import bounds, push, sticks
 
 MU, RADIUS = 0.3, 1 / 30
 
@@ -98,6 +98,14 @@ def test_a_patch_of_no_size_is_coulombs(square):
     small = push(Contensou(MU, 1e-9).law, square, 9.0)
     if square > 1e-10:
         assert small == pytest.approx(push(coulomb.law, square, 9.0), abs=1e-12)
+
+
+@pytest.mark.parametrize(("law", "omega_n", "expected"), [
+    (Coulomb(MU), 9.0, True), (Contensou(MU, RADIUS), 9.0, False), (Contensou(MU, RADIUS), 0.0, True),
+    (Contensou(MU, RADIUS), -1e-12, True), (Contensou(MU, 0), 9.0, True), (SmoothedCoulomb(MU, 0.1), 0.0, False),
+    (SmoothedCoulomb(MU, 1e-12), 9.0, True), (Viscous(0), 9.0, False), (Viscous(0.3), 0.0, False)])  # fmt: skip
+def test_a_contact_sticks_where_no_push_makes_it_slip(law, omega_n, expected):
+    assert sticks(law.law, omega_n) == expected
 
 
 def test_the_laws_of_a_point():

@@ -107,6 +107,63 @@ def test_rolling_beside_a_pole_has_the_two_modes(top, spin, inverted):
     np.testing.assert_allclose(found, [expected.sum(), expected.prod()], atol=1e-6)
 
 
+STICKING = (
+    (Contensou(0.3, 0.0), 9.0), (Contensou(0.3, 1e-14), 9.0), (Contensou(0.3, 0.01), 0.0),
+    (Contensou(0.3, 0.01), 1e-12), (SmoothedCoulomb(0.3, 1e-14), 9.0), (SmoothedCoulomb(0.3, 1e-300), 9.0),
+    (Viscous(1e15), 9.0))  # fmt: skip
+
+
+@pytest.mark.parametrize("inverted", [False, True])
+@pytest.mark.parametrize(("law", "spin"), STICKING)
+def test_a_contact_that_no_push_can_move_rolls(law, spin, inverted):
+    """e_x + i e_y of a rolling run obeys the linear recursion of the two exponentials, whichever law makes it roll."""
+    modes = spinning_modes(PAPER, law, spin, inverted)
+    step, pole = 0.05, np.pi if inverted else 0.0
+    moved = roll(PAPER, None, np.arange(0, 10, step), State(abs(pole - 1e-5), 0, 0, spin))
+    xi = np.sin(moved.theta) * np.exp(1j * moved.phi)
+    assert len(modes) == 2
+    expected = np.exp(step * modes)
+    np.testing.assert_allclose(xi[2:], expected.sum() * xi[1:-1] - expected.prod() * xi[:-2], atol=1e-11)
+
+
+@pytest.mark.parametrize(("law", "spin"), [(Contensou(0.3, 0.01), 0.0), (Contensou(0.3, 0.0), 0.0),
+                                           (Contensou(0.3, 0.0), 0.1)])  # fmt: skip
+def test_a_run_that_falls_over_rolling_grows_as_its_fastest_mode(law, spin):
+    """Inverted, by the equations of sliding, in which the contact may stick."""
+    growth = spinning_modes(PAPER, law, spin, True)[0].real
+    times = np.linspace(0, 12 / growth, 400)
+    moved = slide(PAPER, State(np.pi - 1e-7, 0, 0, spin), law, times, rtol=1e-11)
+    late = times > 8 / growth
+    assert growth == pytest.approx(np.polyfit(times[late], np.log(np.pi - moved.theta[late]), 1)[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("inverted", [False, True])
+@pytest.mark.parametrize("spin", [0.0, 1e-12, 9.0])
+def test_slower_modes_tend_to_rolling_as_a_patch_shrinks(spin, inverted):
+    """The other one dies away at once; what is left differs by 1/k, below and above the k that counts as sticking."""
+    rolling = spinning_modes(PAPER, Coulomb(0.3), spin, inverted)
+    for w in (1e-5, 1e-8, 1e-9, 1e-10, 1e-14, 1e-301, 0.0):  # radius |omega_n|
+        law = Contensou(0.3, w / (spin or 1.0))
+        found = spinning_modes(PAPER, law, spin, inverted)
+        for one in rolling:
+            assert np.abs(found - one).min() < 1e3 * w + 2e-7
+        assert not np.any(found.real[2:] > -1e4)
+
+
+@pytest.mark.parametrize(
+    "law", [Contensou(0.3, 0.0), Contensou(0.3, 1e-14), SmoothedCoulomb(0.3, 1e-14), Viscous(1e15)]
+)
+def test_a_tumbling_contact_that_no_push_can_move_rolls(law):
+    theta = 1.5
+    y = tumbling(S, theta)
+    modes = tumbling_modes(S, law, theta)
+    times = np.linspace(0, 20, 10001)
+    moved = roll(S, None, times, State(theta + 1e-4, 0, y[2], y[3])).theta
+    period = np.diff(times[np.flatnonzero(np.diff(np.sign(moved - moved.mean())) > 0)]).mean()
+    assert len(modes) == 4 and np.abs(modes.real).max() < 1e-9
+    assert modes.imag.max() == pytest.approx(2 * np.pi / period, rel=1e-3)
+
+
 def test_what_has_no_steady_tumbling():
     with pytest.raises(TopError):
         tumbling_modes(PAPER, Viscous(0.3), 0.0)

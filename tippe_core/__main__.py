@@ -1,6 +1,13 @@
-"""`python -m tippe_core`: compiles the kernels ahead of time, so that nobody waits for the compiler later."""
+"""`python -m tippe_core`: compiles the kernels ahead of time, so that nobody waits for the compiler later.
 
+With WATCHING it ends as soon as its standard input does: if that is a pipe from the process that started it, with that
+process, however it ends. Kernels that were compiled by then are stored.
+"""
+
+import os
 import sys
+import threading
+from collections.abc import Sequence
 from contextlib import nullcontext
 from functools import partial
 
@@ -8,9 +15,13 @@ from . import kept
 from .ahead import compile_all
 from .compiled import why_not
 
+WATCHING = "--until-input-ends"
 
-def main() -> int:
+
+def main(arguments: Sequence[str] = ()) -> int:
     """Prints what it does; returns the exit code: 1 if the compiled kernels cannot be stored."""
+    if WATCHING in arguments:
+        threading.Thread(target=_end_with_input, name="input", daemon=True).start()
     reason = why_not()
     if reason:
         print(f"tippe_core computes in Python, some hundred times slower than compiled: {reason}.")
@@ -31,5 +42,11 @@ def main() -> int:
     return 0
 
 
+def _end_with_input() -> None:
+    while os.read(0, 1024):
+        pass
+    os._exit(1)
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

@@ -101,8 +101,9 @@ CALLS: tuple[tuple[str, Callable[[], None]], ...] = (
 
 
 def compile_all(say: Callable[[str], object] = lambda text: None) -> str:
-    """Compiles whatever is not stored yet, and stores it. say: is called with the progress, in pieces of lines. Returns
-    the reason why the kernels could not be stored; empty if they were."""
+    """Compiles whatever is not stored yet, and stores it; when it has completed a folder, it removes those that nothing
+    has used for long. say: is called with the progress, in pieces of lines. Returns the reason why the kernels could
+    not be stored; empty if they were."""
     for number, (name, call) in enumerate(CALLS, 1):
         say(f"  {number} of {len(CALLS)}  {name}: ")
         start = time.monotonic()
@@ -111,4 +112,5 @@ def compile_all(say: Callable[[str], object] = lambda text: None) -> str:
     folder, reason = kept.folder(), not_kept()
     if folder is not None and not reason and not kept.complete(folder):
         kept.mark(folder)
+        kept.remove_unused(folder)
     return reason

@@ -2,7 +2,8 @@
 
 numba checks only the file in which a kernel is defined: it would not notice that a function called from another file
 had changed, and would run the old one. So the folder's name contains a hash of all sources of tippe_core, and nothing
-in it is ever stale.
+in it is ever stale. Folders of other versions may be in use too, now or after a roll-back: they stay, until nothing has
+used them for UNUSED days and another version has compiled all that it needs.
 """
 
 import hashlib
@@ -10,6 +11,7 @@ import os
 import shutil
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
@@ -22,6 +24,8 @@ except ImportError:  # Windows: no lock on folders; a process that finds the fol
 
 PACKAGE = Path(__file__).parent
 COMPLETE = "complete"  # this file lists the stored files and their sizes, once nothing is missing
+FOLDERS = f"kernels-*-*-{16 * '[0-9a-f]'}"  # those of all versions
+UNUSED = 30  # days after which a folder may be removed
 
 
 @cache
@@ -65,7 +69,10 @@ def folder() -> Path | None:
     if not Path(__file__).is_file():  # inside an archive, where files cannot be listed
         return None
     candidates = [place / name() for place in places()]
-    return next((each for each in candidates if complete(each)), None) or next(filter(writable, candidates), None)
+    found = next(filter(complete, candidates), None) or next(filter(writable, candidates), None)
+    if found:
+        used(found)
+    return found
 
 
 def complete(path: Path | None) -> bool:
@@ -87,18 +94,28 @@ def mark(path: Path) -> None:
     new.replace(path / COMPLETE)
 
 
+def used(path: Path) -> None:
+    """Dates the folder today. Where that is not allowed, nothing can be removed either."""
+    with suppress(OSError):
+        os.utime(path)
+
+
+def remove_unused(own: Path) -> None:
+    """Removes the folders beside this one that nothing has used for UNUSED days. The date of one that is being compiled
+    changes with each kernel."""
+    for each in set(own.parent.glob(FOLDERS)) - {own}:
+        with suppress(OSError):
+            if time.time() - each.stat().st_mtime > UNUSED * 86400:
+                shutil.rmtree(each)
+
+
 def writable(path: Path) -> bool:
-    """Whether files can be created in it. A new folder replaces those for other sources or another numba."""
+    """Whether files can be created in it; it is made if it is missing."""
     try:
-        new = not path.is_dir()
         path.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=path).close()
     except OSError:
         return False
-    if new:
-        for old in path.parent.glob(path.name.rpartition("-")[0] + "-*"):
-            if old != path:
-                shutil.rmtree(old, ignore_errors=True)
     return True
 
 

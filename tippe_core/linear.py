@@ -8,8 +8,8 @@ F_z = 1. L = I1 e x e' + I3 omega e and the torque of the forces about G give
 
 so solutions vary as exp(lambda t) with three complex lambda (divide by c, which equals 1/c). The real part is the
 growth rate, the imaginary part the rate of rotation, seen from above. k is the slope of the friction law at small slip:
-gamma, mu/eps, or (3 pi/8) mu/(radius |omega_n|). Coulomb's law is not linear there: the contact sticks, u = 0, and the
-top rolls.
+gamma, mu/eps, or (3 pi/8) mu/(radius |omega_n|). Where that is infinite (Coulomb's law, or a patch without size or
+spin), or so large that only rounding would tell, the contact sticks, u = 0, and the top rolls: friction.sticks().
 
 Tumbling is a steady precession that neither slips nor needs friction: w2^2 [I1 c - I3 (c - a)] = a s^2 and
 w3 s = w2 (c - a). Near it the Jacobian of the sliding equations in (theta, w1, w2, w3, v) is found by complex-step
@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import TopError, finite
-from .motion.friction import Coulomb, Friction
+from .motion.friction import Friction, sticks
 from .paper.top import Top
 from .types import Array
 
@@ -34,10 +34,11 @@ def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = F
     """The eigenvalues lambda, in (g/R)^1/2, of a top that spins about its own vertical axis, upright or inverted.
 
     spin: its angular velocity about axis 3, in (g/R)^1/2. Three complex numbers, or two where friction makes the
-    contact stick (Coulomb); the one that grows fastest comes first.
+    contact stick: Coulomb's always, Contensou's with radius or spin 0, and each whose k exceeds 1e8 there. The one that
+    grows fastest comes first.
     """
     a, I1, I3, c, w = top.a, top.I1, top.I3, -1.0 if inverted else 1.0, finite("spin", spin)
-    if isinstance(friction, Coulomb):
+    if sticks(friction.law, c * w):
         # F = v' = -(i omega xi' + (a - c) xi''), and c (a c - 1) = a - c
         inertia, gyro = I1 + (a - c) ** 2, 1j * w * (c * I3 - (a - c))
         return _sorted(np.array([[0, 1], [-c * a / inertia, gyro / inertia]]))
@@ -51,12 +52,14 @@ def tumbling_modes(top: Top, friction: Friction, theta: float) -> Modes:
     """The eigenvalues lambda, in (g/R)^1/2, of tumbling: the steady precession at the tilt theta (rad) that neither
     slips nor needs friction.
 
-    The one that grows fastest comes first. One is 0, because neighbouring precessions are steady too. Four numbers
-    where friction makes the contact stick (Coulomb). Raises TopError if there is no such precession at that tilt.
+    The one that grows fastest comes first. One is 0, because neighbouring precessions are steady too. Six numbers, or
+    four where friction makes the contact stick, as in spinning_modes. Raises TopError if there is no such precession at
+    that tilt.
     """
     y = tumbling(top, theta)
-    holds = isinstance(friction, Coulomb)
-    k = 0.0 if holds else float(friction.k(0.0, y[2] * np.sin(theta) + y[3] * np.cos(theta)))
+    omega_n = float(y[2] * np.sin(theta) + y[3] * np.cos(theta))
+    holds = sticks(friction.law, omega_n)
+    k = 0.0 if holds else float(friction.k(0.0, omega_n))
     columns = []
     for i in range(4 if holds else 6):
         moved = y.astype(complex)

@@ -19,6 +19,7 @@ from ..types import Number
 COULOMB, VISCOUS, SMOOTHED, CONTENSOU = range(4)
 SERIES = 9.0  # (u/(radius omega_n))^2 above which the closed forms lose more digits than the series in 1/q^2
 LEAST = 1e-300  # radius omega_n below which its inverse would overflow: counts as no spin
+STEEP = 1e8  # k above which linear equations leave the slip out: its share is 1/k, and rounding adds 1e-16 k
 
 
 class Law(NamedTuple):
@@ -167,6 +168,14 @@ def bounds(law: Law) -> tuple[float, float]:
     """The largest |F_h| and |T| per unit of F_z at a contact that neither slips nor spins: mu_s and, for Contensou's
     law, (3 pi/16) mu radius."""
     return law.mu_s, (3 * np.pi / 16 * law.mu * law.width if law.kind == CONTENSOU else 0.0)
+
+
+def sticks(law: Law, omega_n: float) -> bool:
+    """Whether a contact that does not slip, but spins with omega_n about its normal, goes on without slip however it is
+    pushed, up to bounds(): the law is set-valued there (Coulomb's always, Contensou's at radius omega_n = 0), or so
+    close to that that k exceeds STEEP."""
+    k, limit = push(law, 0.0, omega_n)[0], bounds(law)[0]
+    return k > STEEP or (k == 0.0 and limit > 0.0)
 
 
 @compiled
