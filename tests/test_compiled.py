@@ -409,5 +409,9 @@ def test_what_compiles_for_a_server_ends_with_it(command, end, tmp_path):
         started = compilers()
         server.process.send_signal(end)
         server.process.wait(60)
-        until(lambda: not any(map(runs, started)), 60)
+        try:
+            until(lambda: not any(map(runs, started)), 30)
+        finally:
+            for each in filter(runs, started):
+                os.kill(each, signal.SIGKILL)
     assert not any(map(kept.complete, (tmp_path / "kernels").iterdir()))  # nor did it end because it was done
