@@ -22,7 +22,7 @@ from app.bundle import call
 from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import draw, in_language, plain
+from app.widgets.plots import draw, in_language, on_pointer, plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
 """{quantity: the factor from the unit of the data to that of the axis}; for lengths 1000, to mm."""
@@ -82,9 +82,8 @@ class Pictures:
         for fig, span, begun in zip(figures, spans, self._starts, strict=True):
             fig.add_layout(span)
             fig.add_layout(begun)
-            given = {"fig": fig, "hand": self._hand, "starts": self._starts, "curves": curves}
-            for event in ("tap", "panstart", "pan", "panend", "mousemove"):
-                fig.js_on_event(event, call("pullFilm", **given))
+            pull = call("pullFilm", fig=fig, hand=self._hand, starts=self._starts, curves=curves)
+            on_pointer(fig, pull, "mousemove")
         figures[0].js_on_change("inner_width", call("followFilm", spans=spans))
         figures[0].add_layout(Label(x=start, y=high - 32, y_units="screen", x_offset=5, text=say("measure.begins"),
                                     text_color=FAINT, text_font_size="12px"))  # fmt: skip
