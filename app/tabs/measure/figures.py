@@ -29,6 +29,7 @@ SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "prec
 COLOUR = {"spin": "omega", "precession": "omega", "azimuth": "theta"}
 HEIGHT, SMALL, REST, LEFT = 250, 180, 56, 52  # px; SMALL if there are more than two figures
 NOTHING = {"t": np.zeros(0), "y": np.zeros(0)}
+FRAME = f"height: {HEIGHT + REST}px; border: 1px solid var(--rule, #d8dce0); border-radius: 6px; box-sizing: border-box"
 HEAD = "display: flex; flex-wrap: wrap; justify-content: space-between; align-items: baseline; gap: 0 16px"
 
 
@@ -64,6 +65,11 @@ class Pictures:
         self._hand.on_change("data", partial(_heard, pulled))
         self.view = pn.Column(sizing_mode="stretch_width", margin=0)
         self._parts, self._starts = {}, []
+
+    def clear(self):
+        """Shows an empty frame in place of the figures."""
+        self._parts, self._starts = {}, []
+        self.view.objects = [words(f'<div style="{FRAME}"></div>')]
 
     def begin(self, data, start, source):
         """Shows new data. source: their origin, in words."""
