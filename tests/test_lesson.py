@@ -66,7 +66,7 @@ def test_every_step_has_words_for_every_top(step, top):
         assert say(f"learn.curves.{curve.key}") and curve.x.shape == curve.y.shape
 
 
-# ---- the six steps ----
+# ---- the seven steps ----
 
 
 def test_it_flips_when_leine_and_glocker_say():

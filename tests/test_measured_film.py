@@ -72,7 +72,7 @@ def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
     held = replace(FILM, loose=())  # free, this film leaves correlations that only rounding decides
     one.take(written(held, settled(read((FOLDER / "made-rolls.csv").read_bytes()))))
     one.compute()
-    one.in_link.value = True
+    one.home.in_link.value = True
     monkeypatch.setattr(work, "fit", lambda *_: pytest.fail("fitted anew"))
     other = Measure(Explorer().scene)
     other.filmed.film = one.filmed.film

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.model.measured.data import corrected, roughness, settled
-from app.model.measured.table import LARGEST, MeasuredError, read, written
+from app.model.measured.data import roughness, settled
+from app.model.measured.table import LARGEST, MeasuredError, read, taken_as, written
 from app.text import LANGUAGES, listed, say
 
 ROWS = [(i / 60, 5 + 2 * i, 28 - i / 8) for i in range(20)]
@@ -227,14 +227,13 @@ def test_numbers_without_names_are_not_taken_for_names():
 
 def test_a_column_can_be_corrected():
     found = read(table("a\tb\tc", "\t"))
-    with pytest.raises(MeasuredError, match="no-time-column"):
+    with pytest.raises(MeasuredError, match="no-columns"):
         settled(found)
-    columns = [corrected(column, *as_what) for column, as_what in
-               zip(found.columns, [("time", "s"), ("tilt", "deg"), ("precession", "m")], strict=True)]  # fmt: skip
+    columns = [*map(taken_as, found.columns, ("time", "tilt", "precession"))]
     data = settled(type(found)(tuple(columns), found.lines))
     assert list(data.series) == ["tilt", "precession"]
     assert columns[2].unit == "rev/s"
-    twice = type(found)((columns[0], columns[1], corrected(found.columns[2], "tilt", "rad")), found.lines)
+    twice = type(found)((columns[0], columns[1], taken_as(found.columns[2], "tilt")), found.lines)
     with pytest.raises(MeasuredError, match="twice"):
         settled(twice)
 

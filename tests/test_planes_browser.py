@@ -165,3 +165,13 @@ def test_a_click_on_the_map_goes_there(page):
     page.mouse.click(*page.evaluate(PIXEL, ["planes-map", 0.5, 0.8]))
     page.wait_for_function(here, arg=0.5)
     assert page.evaluate(COLUMN, ["planes-map", "y"])[-1] == pytest.approx([0.8], abs=0.005)
+
+
+def test_of_two_quick_clicks_on_the_map_the_second_counts(page):
+    """Bokeh calls it a doubletap, though it is elsewhere."""
+    page.locator("[data-figure=planes-map]").evaluate(IN_SIGHT)
+    one, other = (page.evaluate(PIXEL, ["planes-map", *place]) for place in ((0.6, 0.7), (0.3, 1.0)))
+    page.mouse.click(*one)
+    page.mouse.click(*other)
+    here = f"place => ['x', 'y'].every((c, i) => Math.abs(({COLUMN})(['planes-map', c]).at(-1)[0] - place[i]) < 5e-3)"
+    page.wait_for_function(here, arg=[0.3, 1.0])

@@ -5,6 +5,8 @@ import io
 import re
 from pathlib import Path
 
+from app.model.lesson.lesson import LESSON
+
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 
 
@@ -15,3 +17,9 @@ def test_readme_code_prints_what_it_says():
     with contextlib.redirect_stdout(out):
         exec(code, {})
     assert out.getvalue() == printed
+
+
+def test_the_lesson_has_as_many_steps_as_the_readme_says():
+    numbers = {"six": 6, "seven": 7, "eight": 8}
+    [number] = re.findall(r"lesson in (\w+) steps", README)
+    assert numbers[number] == len(LESSON)

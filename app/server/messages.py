@@ -172,7 +172,7 @@ CHANGES = {
     "Download": {"clicks": COUNT},
     "Failure": {},
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
-    "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT)},
+    "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT, SHORT, COUNT)},
     "FilmStage": {},
     "Moments": {},
     "Guide": {},

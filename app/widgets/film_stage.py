@@ -26,6 +26,11 @@ class FilmStage(Bundled):
     start = param.Number(default=0.0, doc="s, the first time of the clock")
 
 
+def clear_motion(stage):
+    """Shows none on a FilmStage."""
+    stage.param.update(frames=b"", tilts=b"", measured=b"")
+
+
 def put_motion(stage, t, motion, outline, start, **others):
     """Shows a Trajectory on a FilmStage. t: its times, s; outline: (k, 2), that of the body."""
     none, code = np.zeros((len(t), 3)), np.zeros(len(t))

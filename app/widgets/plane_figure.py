@@ -8,7 +8,7 @@ from app.model.colours import COLOURS, FAINT, INK
 from app.model.regimes import COLOUR, ROLLS
 from app.text import listed
 from app.widgets.controls import SPIN, SYMBOLS
-from app.widgets.plots import draw, plain
+from app.widgets.plots import draw, on_pointer, plain
 
 
 class PlaneFigure:
@@ -89,9 +89,7 @@ class PlaneFigure:
         fig.js_on_change("inner_width", call("followMotion", motion=motion, **hand))
         words = listed("roll.plane") | {"place": place_words()}
         hand |= {"limits": self.limits, "field": self.field, "words": words, "pulled": listed("regimes.why_html")}
-        pull = call("pullPlane", motion=motion, **hand)
-        for event in ("tap", "panstart", "pan", "panend", "mousemove"):
-            fig.js_on_event(event, pull)
+        on_pointer(fig, call("pullPlane", motion=motion, **hand), "mousemove")
         self.selected.js_on_change("patching", call("sayPull", **hand))
 
     def show_selected(self, scene):

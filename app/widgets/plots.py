@@ -14,6 +14,7 @@ from bokeh.models import (
     BoxAnnotation,
     CDSView,
     ColumnDataSource,
+    CustomJS,
     CustomJSTickFormatter,
     Line,
     Range1d,
@@ -25,6 +26,9 @@ from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import decimal_point, say
 
+CLICKS, DRAG = ("tap", "doubletap"), ("panstart", "pan", "panend")
+"""Bokeh's gestures. It calls the second of two clicks within 0.3 s a doubletap, wherever it is, and not a tap as
+well."""
 TICKS = Path(__file__).parents[1].joinpath("ticks.js").read_text(encoding="utf-8")
 GRID, PAPER = "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
@@ -64,6 +68,21 @@ def plain(**options):
         label = say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
+
+
+def on_click(fig, act):
+    """Calls act, a function of an event or a callback in the browser, for each click in a figure, however soon after
+    the one before."""
+    listen = fig.js_on_event if isinstance(act, CustomJS) else fig.on_event
+    for event in CLICKS:
+        listen(event, act)
+
+
+def on_pointer(fig, act, *more):
+    """Runs a callback in the browser for each click and drag in a figure, and for more events of Bokeh."""
+    on_click(fig, act)
+    for event in (*DRAG, *more):
+        fig.js_on_event(event, act)
 
 
 def draw(fig, kind, *xy, source, level="glyph", **looks):
@@ -115,8 +134,7 @@ class TimeFigures:
                 draw(fig, Line, "t", column, source=self.source, line_color=colour, line_width=2)
             self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
             fig.add_layout(self.spans[-1])
-            for event in ("tap", "panstart", "pan", "panend"):
-                fig.js_on_event(event, seek)
+            on_pointer(fig, seek)
             fig.min_border_left = 44
             fig.ygrid.ticker = fig.yaxis.ticker
             fig.yaxis.ticker.desired_num_ticks = 2

@@ -10,7 +10,7 @@ from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.roll import portraits
 from app.text import say
-from app.widgets.plots import PAPER, draw, plain
+from app.widgets.plots import PAPER, draw, on_pointer, plain
 
 POINTS_OF_A_TRACK = 480  # on a screen
 
@@ -38,9 +38,7 @@ class Portrait:
             fig.x_range.renderers = fig.y_range.renderers = [line]
         self.above()
         fig.js_on_change("inner_width", call("followCurve", curve=self.curve, bead=self.bead, fig=fig))
-        seek = call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole)
-        for event in ("tap", "panstart", "pan", "panend"):
-            fig.js_on_event(event, seek)
+        on_pointer(fig, call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole))
         self._shown = None
 
     def below(self):

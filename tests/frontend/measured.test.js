@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { rowAt } from "../../app/frontend/src/three/measured.js";
-import { encodingOf, readFile, thinned } from "../../app/frontend/src/widgets/measured_file.js";
+import { encodingOf, readFile, sizeOf, thinned } from "../../app/frontend/src/widgets/measured_file.js";
 
 const LIMITS = { most: 10_000, rows: 5000, head: 12 };
 const table = (rows, end = "\n") => ["# a film", "t (s)\ttilt (°)", ...Array.from({ length: rows }, (_, i) => `${(i / 240).toFixed(4)}\t${i}`)].join(end);
@@ -37,6 +37,52 @@ test("of a long table every n-th row is kept, and the names", () => {
   assert.equal(lines[1], "t (s)\ttilt (°)");
   const last = lines.slice(20).map((line) => Number(line.split("\t")[1]));
   last.slice(1).forEach((row, i) => assert.equal(row - last[i], each));
+});
+
+// Numbers that are the same in each run of the tests.
+function chance(seed) {
+  let state = seed;
+  const next = (low, high) => {
+    state = (state * 48271) % 2147483647;
+    return low + (state % (high - low + 1));
+  };
+  return next;
+}
+
+// A table of these many lines, each with a number of cells between two: short or long lines, and letters that take more
+// room in a message than here.
+function shaped(next) {
+  const [lines, cells] = [[next(1, 20), next(1, 2000)], [next(1, 600), next(1, 20)], [next(20, 60), next(100, 400)]][next(0, 2)];
+  const between = ["\t", ",", '"\t"', " ; "][next(0, 3)], cell = ["1", "0,125", "2.123456789012", "µ°", '"\\"', "\u0001"][next(0, 5)], same = next(0, 1);
+  return Array.from({ length: lines }, () => Array(same ? cells : next(1, cells)).fill(cell).join(between)).join("\n");
+}
+
+test("whatever the shape of a table, no more is sent than the server takes", async () => {
+  const next = chance(7), seen = { whole: 0, thinned: 0, refused: 0 };
+  for (let i = 0; i < 200; i += 1) {
+    const text = shaped(next), file = new Blob([text]);
+    for (const [kept, each] of [thinned(text, LIMITS), await readFile(file, LIMITS, () => {})]) {
+      const message = JSON.stringify({ events: [{ kind: "ModelChanged", attr: "table", new: [kept, each, 1] }] });
+      assert.ok(Buffer.byteLength(message) <= LIMITS.most + 100, `${i}: ${Buffer.byteLength(message)}`);
+      seen[each === 1 ? "whole" : each ? "thinned" : "refused"] += 1;
+      if (!each) assert.ok(kept === "" && sizeOf(text) > LIMITS.most, `${i}: refused without need`);
+      if (each === 1) assert.equal(kept.split("\n").length, text.split("\n").length);
+    }
+  }
+  assert.ok(Math.min(...Object.values(seen)) > 20, JSON.stringify(seen));
+});
+
+test("a table whose lines are too long is not sent", async () => {
+  const names = Array.from({ length: 2000 }, (_, i) => `t${i}`).join(","), wide = [names, names, names].join("\n");
+  assert.deepEqual(thinned(wide, LIMITS), ["", 0]);
+  const two = new Blob([`${"1,".repeat(2_000_000)}\n${"2,".repeat(2_000_000)}`]);
+  assert.deepEqual(await readFile(two, LIMITS, () => {}), ["", 0]);
+});
+
+test("lines that differ in length are thinned until they fit", () => {
+  const lines = Array.from({ length: 600 }, (_, i) => (i % 7 ? "1,2" : "1,2,".repeat(40))), [text, each] = thinned(lines.join("\n"), LIMITS);
+  assert.ok(each > 1 && sizeOf(text) <= LIMITS.most);
+  text.split("\n").slice(LIMITS.head).forEach((line, i) => assert.equal(line, lines[each * (Math.ceil(LIMITS.head / each) + i)]));
 });
 
 test("superfluous digits are removed first", () => {

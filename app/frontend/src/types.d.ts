@@ -142,7 +142,7 @@ interface MeasuredFileModel extends Model {
   most: number;
   rows: number;
   head: number;
-  table: [text: string, each: number, count: number];
+  table: [text: string, each: number, count: number, name: string, size: number];
 }
 
 interface PhotoModel extends Model {

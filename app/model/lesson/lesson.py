@@ -1,4 +1,4 @@
-"""The lesson as data: six steps, the page's own top, and the part for theorists.
+"""The lesson as data: seven steps, the last one of the page's own top, and the part for theorists.
 
 No answers are stored: Step.answer(scene) computes the answer from the run that is shown, or from the scene's own top.
 The words are in app/text, under the names of the steps.

@@ -1,4 +1,4 @@
-"""The six steps of the lesson, and the page's own top: what each asks, and the answer that its run gives.
+"""The seven steps of the lesson, the last one of the page's own top: what each asks, and the answer that its run gives.
 
 No answers are stored: they are computed from the run that is shown.
 """

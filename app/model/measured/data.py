@@ -1,7 +1,7 @@
 """Measured data in s, rad and m: the columns of a Table with the quantities and units that the visitor confirmed."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
@@ -64,13 +64,6 @@ class Data:
         return Data(MappingProxyType({name: part for name, part in parts.items() if len(part.t)}))
 
 
-def corrected(column: Column, quantity: str, unit: str) -> Column:
-    """The column with another quantity and unit; a unit that the quantity does not have is replaced by its first
-    one."""
-    units = UNITS.get(quantity, {})
-    return replace(column, quantity=quantity, unit=unit if unit in units else next(iter(units), ""), guessed=False)
-
-
 def settled(table: Table, rate: float = 0.0) -> Data:
     """The Data of a Table. rate: frames per second, if the time is counted in frames."""
     used = [column for column in table.columns if column.quantity]
@@ -82,6 +75,8 @@ def settled(table: Table, rate: float = 0.0) -> Data:
     if time is None:
         if any(code == "no-header" for code, _ in table.notes):
             raise MeasuredError("no-names", line=table.lines[0])
+        if not used:
+            raise MeasuredError("no-columns")
         raise MeasuredError("no-time-column", line=max(table.lines[0] - 1, 1))
     if time.unit == "frames" and not rate > 0:
         raise MeasuredError("rate", rate=rate)

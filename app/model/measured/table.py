@@ -8,14 +8,14 @@ raises a MeasuredError with its line; what was read but left out is a note of th
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from tippe_core.types import Array
 
 LARGEST = 200_000
-"""Bytes of a table: the server accepts messages of 256 KiB, and text grows a little in transit."""
+"""Bytes of a table as it is sent, in JSON, with room for the rest of the message: the server accepts 256 KiB."""
 FEWEST, MOST = 8, 5000
 """The least and the largest number of rows."""
 HEAD = 12
@@ -111,6 +111,8 @@ def read(data: bytes | str) -> Table:
     if size > LARGEST:
         raise MeasuredError("too-large", size=size / 1000, most=LARGEST / 1000)
     text = _decoded(data) if isinstance(data, bytes) else data.removeprefix("\ufeff")
+    if text.startswith("PK\x03\x04"):
+        raise MeasuredError("packed")
     if "\0" in text:
         raise MeasuredError("no-text", line=text[: text.index("\0")].count("\n") + 1)
     text = text.replace("\u2212", "-")  # a minus as programs print it
@@ -288,24 +290,32 @@ def _columns(names: list[str], values: Array) -> tuple[Column, ...]:
     columns: list[Column] = []
     taken = {""}
     for i, name in enumerate(names):
-        quantity, unit, error = _understood(name)
+        quantity, _, error = _understood(name)
         if quantity in taken or not np.isfinite(values[:, i]).any():
             quantity = ""
         taken.add(quantity)
-        guessed = bool(quantity) and unit not in UNITS[quantity]
-        if guessed:
-            unit = _likely(quantity, values[:, i], name)
-        columns.append(Column(name, quantity, unit if quantity else "", guessed, error, values[:, i]))
+        columns.append(taken_as(Column(name, "", "", False, error, values[:, i]), quantity))
     return tuple(columns)
+
+
+def taken_as(column: Column, quantity: str) -> Column:
+    """The column as another quantity: in the unit that its name says, or else in a likely one."""
+    if not quantity:
+        return replace(column, quantity="", unit="", guessed=False)
+    _, unit, _ = _understood(column.name)
+    guessed = unit not in UNITS[quantity]
+    unit = _likely(quantity, column.values, column.name) if guessed else unit
+    return replace(column, quantity=quantity, unit=unit, guessed=guessed)
 
 
 def _understood(name: str) -> tuple[str, str, float | None]:
     """(quantity, unit, error) from a column's name; "" or None for what it does not say."""
     name, _, error = name.partition("±")
     found = _NUMBER.fullmatch(error.strip())
-    unit = re.search(r"[(\[]([^)\]]*)[)\]]", name) or _UNIT_LAST.search(name)
-    known = _UNIT.get(unit[1].strip().lower(), "") if unit else ""
-    called = name[: unit.start()] + name[unit.end() :] if unit and known else name
+    parts = [*re.finditer(r"[(\[]([^)\]]*)[)\]]", name), *_UNIT_LAST.finditer(name)]
+    unit = next((part for part in parts if part[1].strip().lower() in _UNIT), None)
+    known = _UNIT[unit[1].strip().lower()] if unit else ""
+    called = name[: unit.start()] + name[unit.end() :] if unit else name
     bare = re.sub(r"[^a-zäöüßθφϕω0-9]", "", called.lower())
     return _QUANTITY.get(bare, ""), known, float(error.strip().replace(",", ".")) if found else None
 

@@ -11,7 +11,7 @@ from app.model.colours import ACCENT, INK
 from app.model.maps.lines import lines
 from app.tabs.maps.stage import CLOCK
 from app.text import listed, say
-from app.widgets.plots import draw, plain
+from app.widgets.plots import draw, on_pointer, plain
 
 DARK = "#1b2430"
 # The accent on the cells, which are the same in every look: as numbers, because the look exchanges its name.
@@ -57,9 +57,7 @@ class MapFigure:
         box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color=ON_MAP, fill_alpha=0.15,
                             line_color=ON_MAP, line_width=2)  # fmt: skip
         fig.add_layout(box)
-        mine = {"fig": fig, "hand": self.hand, "bead": self.bead, "box": box}
-        for event in ("tap", "panstart", "pan", "panend"):
-            fig.js_on_event(event, call("pullBead", **mine))
+        on_pointer(fig, call("pullBead", fig=fig, hand=self.hand, bead=self.bead, box=box))
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label")))
         fig.js_on_change("inner_width", call("keepFinger", fig=fig, bead=self.bead, hand=self.hand))
         fig.js_on_change("inner_width", call("moveBead", fig=fig, hand=self.hand, bead=self.bead, map=self.fine))
@@ -124,8 +122,7 @@ class RunFigure:
         now = Span(location=0, dimension="height", line_color=ACCENT, line_width=1.5)
         fig.add_layout(now)
         fig.js_on_change("inner_width", call("moveLines", spans=[now], clock=CLOCK))
-        for event in ("tap", "panstart", "pan", "panend"):
-            fig.js_on_event(event, call("seekAlong", clock=CLOCK))
+        on_pointer(fig, call("seekAlong", clock=CLOCK))
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label_run")))
 
     def show(self, t, theta, seconds):

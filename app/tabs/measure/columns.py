@@ -7,8 +7,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.measured.data import corrected
-from app.model.measured.table import UNITS
+from app.model.measured.table import UNITS, taken_as
 from app.text import say, written
 from app.widgets.cards import beside, field, flow, note, words
 from app.widgets.controls import typed_number
@@ -23,10 +22,7 @@ class Columns:
 
     def __init__(self, changed, wrong):
         self._changed, self._wrong, self._table, self._errors = changed, wrong, None, ()
-        self.rate = field("", say("measure.rate"))
-        self.rate.param.watch(lambda event: self._changed(self._table), "value")
-        asks = flow(words(say("measure.rate"), sizing_mode=None), self.rate)
-        self._of_rate = pn.Column(asks, sizing_mode="stretch_width", margin=0)
+        self.rate, self._of_rate = None, pn.Column(sizing_mode="stretch_width", margin=0)
         self.view = pn.Column(sizing_mode="stretch_width", margin=0)
 
     @property
@@ -37,9 +33,16 @@ class Columns:
         except ValueError:
             return 0.0
 
+    def _ask_rate(self):
+        """Makes an empty field for it."""
+        self.rate = field("", say("measure.rate"))
+        self.rate.param.watch(lambda event: self._changed(self._table), "value")
+        self._of_rate.objects = [flow(words(say("measure.rate"), sizing_mode=None), self.rate)]
+
     def show(self, table):
         """Shows a new table."""
         self._table, self._errors = table, ()
+        self._ask_rate()
         self.view.objects = [*(self._row(i, column) for i, column in enumerate(table.columns)), self._of_rate]
         self.show_rate()
 
@@ -72,23 +75,31 @@ class Columns:
 
         asks(column)
 
-        def corrects(event):
-            now = corrected(self._table.columns[i], quantity.value, unit.value)
-            try:
-                now = replace(now, error=typed_number(error.value) if error.value.strip() else None)
-            except ValueError:
-                self._wrong(say("measure.wrong.error", name=column.name))
-                return
+        def correct(now):
+            columns = (*self._table.columns[:i], now, *self._table.columns[i + 1 :])
+            self._table = replace(self._table, columns=columns)
             unit.param.update(options=[*UNITS.get(now.quantity, {"": 1})], value=now.unit)
             guessed.object = _guessed(now)
             asks(now)
-            columns = (*self._table.columns[:i], now, *self._table.columns[i + 1 :])
-            self._table = replace(self._table, columns=columns)
             self.show_rate()
             self._changed(self._table)
 
-        for entry in (quantity, unit, error):
-            entry.param.watch(corrects, "value")
+        def to_unit(event):
+            now = self._table.columns[i]
+            if event.new != now.unit and event.new in UNITS.get(now.quantity, ()):
+                correct(replace(now, unit=event.new, guessed=False))
+
+        def to_error(event):
+            try:
+                size = typed_number(event.new) if event.new.strip() else None
+            except ValueError:
+                self._wrong(say("measure.wrong.error", name=column.name))
+                return
+            correct(replace(self._table.columns[i], error=size))
+
+        quantity.param.watch(lambda event: correct(taken_as(self._table.columns[i], event.new or "")), "value")
+        unit.param.watch(to_unit, "value")
+        error.param.watch(to_error, "value")
         return flow(name, quantity, unit, of_error, guessed, margin=(4, 0))
 
 

@@ -22,13 +22,14 @@ from app.bundle import call
 from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import draw, in_language, plain
+from app.widgets.plots import draw, in_language, on_pointer, plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
 """{quantity: the factor from the unit of the data to that of the axis}; for lengths 1000, to mm."""
 COLOUR = {"spin": "omega", "precession": "omega", "azimuth": "theta"}
 HEIGHT, SMALL, REST, LEFT = 250, 180, 56, 52  # px; SMALL if there are more than two figures
 NOTHING = {"t": np.zeros(0), "y": np.zeros(0)}
+FRAME = f"height: {HEIGHT + REST}px; border: 1px solid var(--rule, #d8dce0); border-radius: 6px; box-sizing: border-box"
 HEAD = "display: flex; flex-wrap: wrap; justify-content: space-between; align-items: baseline; gap: 0 16px"
 
 
@@ -65,6 +66,11 @@ class Pictures:
         self.view = pn.Column(sizing_mode="stretch_width", margin=0)
         self._parts, self._starts = {}, []
 
+    def clear(self):
+        """Shows an empty frame in place of the figures."""
+        self._parts, self._starts = {}, []
+        self.view.objects = [words(f'<div style="{FRAME}"></div>')]
+
     def begin(self, data, start, source):
         """Shows new data. source: their origin, in words."""
         first, last = data.t[0], data.t[-1]
@@ -82,9 +88,8 @@ class Pictures:
         for fig, span, begun in zip(figures, spans, self._starts, strict=True):
             fig.add_layout(span)
             fig.add_layout(begun)
-            given = {"fig": fig, "hand": self._hand, "starts": self._starts, "curves": curves}
-            for event in ("tap", "panstart", "pan", "panend", "mousemove"):
-                fig.js_on_event(event, call("pullFilm", **given))
+            pull = call("pullFilm", fig=fig, hand=self._hand, starts=self._starts, curves=curves)
+            on_pointer(fig, pull, "mousemove")
         figures[0].js_on_change("inner_width", call("followFilm", spans=spans))
         figures[0].add_layout(Label(x=start, y=high - 32, y_units="screen", x_offset=5, text=say("measure.begins"),
                                     text_color=FAINT, text_font_size="12px"))  # fmt: skip

@@ -4,7 +4,7 @@ The browser reads it, and thins it out if it is long."""
 import param
 
 from app.bundle import Bundled
-from app.model.measured.table import HEAD, MOST
+from app.model.measured.table import HEAD, LARGEST, MOST
 
 
 class Filmed(param.Parameterized):
@@ -16,9 +16,12 @@ class Filmed(param.Parameterized):
 class MeasuredFile(Bundled):
     """The newest text of a table. It is stored only in this session."""
 
-    most = param.Integer(default=180_000, constant=True, doc="characters of a text; rows of a longer one are left out")
+    most = param.Integer(default=LARGEST, constant=True, doc="bytes of a text as it is sent, in JSON; rows of a longer "
+                         "one are left out")  # fmt: skip
     rows = param.Integer(default=MOST, constant=True, doc="rows of a table; if there are more, some are left out")
     head = param.Integer(default=HEAD, constant=True, doc="first lines, which are always kept")
     table = param.List(
-        default=["", 1, 0], doc="[the text, n if it has every n-th row of the file, how many texts so far]"
+        default=["", 1, 0, "", 0],
+        doc="[the text, n if it has every n-th row of the file or 0 if its lines are too long for any, how many texts "
+        "so far, the file's name, its size in bytes]",
     )

@@ -7,23 +7,22 @@ from app.borrowed import at_once
 from app.model.bodies import body, outline
 from app.model.measured.data import settled
 from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
-from app.model.measured.film import Film, opened, packed, unpacked, written
+from app.model.measured.film import Film, opened, unpacked, written
 from app.model.measured.kept import kept
 from app.model.measured.made import LAW, found_of_example, is_stored
 from app.model.measured.remembered import said_of
-from app.model.measured.report import program, residuals_table
 from app.model.measured.shown import placed
-from app.model.measured.table import MeasuredError, read
+from app.model.measured.table import LARGEST, MeasuredError, read
 from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, part_of
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns
 from app.tabs.measure.figures import Pictures, constants, part_of_time
 from app.tabs.measure.file import Filmed, MeasuredFile
+from app.tabs.measure.home import Home
 from app.tabs.measure.recipe import recipe
-from app.tabs.measure.report import report
 from app.tabs.measure.stage import film_stage, show_film
-from app.tabs.measure.words import TABLE, in_file, kept_words, notes_words, result_words, source_words
+from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words, source_words
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
@@ -46,9 +45,10 @@ class Measure:
 
     def __init__(self, scene, runs=None):
         self._scene, self._runs, self._run = scene, runs or Runs(), None
-        self._table, self._data, self._part, self._example = None, None, (0.0, 0.0), ""
+        self._guess = None  # the Run of the motion that begins with the first values
+        self._table, self._data, self._part, self._example, self._name = None, None, (0.0, 0.0), "", ""
         self._read, self._of_file, self._silent, self.filmed = None, None, False, Filmed()
-        self._found, self._kept, self._taken, self._thinned, self._coming = None, {}, "", 1, None
+        self._found, self._kept, self._thinned, self._notes = None, {}, 1, ""
         self._saved = ()  # the fits of a film that is being opened
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
         at_once(self.file, "table")
@@ -56,14 +56,10 @@ class Measure:
         self.stage, self.pictures = film_stage(), Pictures(self._pulled)
         self.columns = Columns(self._corrected, self._wrong)
         self.said, self.about = words(), words()
-        self.constants = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.constants, self.over, self.below = (pn.Column(sizing_mode="stretch_width", margin=0) for _ in range(3))
         self._make_controls()
         self.found = words(note(say("measure.nothing_yet")), style=TABLE)
-        self.in_link = pmui.Checkbox(label=say("measure.in_link"), value=False, margin=(4, 0))
-        self.in_link.param.watch(lambda event: self._put_in_link(), "value")
-        self.of_link = words()
-        self.home = pn.Column(flow(*self._downloads()), self.in_link, self.of_link, sizing_mode="stretch_width",
-                              margin=0, visible=False)  # fmt: skip
+        self.home = Home(self._runs, self.filmed)
 
     def _make_controls(self):
         self.part = part_of_time()
@@ -80,7 +76,7 @@ class Measure:
         on_click(self.start, self.compute)
         on_click(self.cancel, lambda event: self._run and self._run.stop())
         self.take_home = pmui.Button(label=say("measure.take_home"), disabled=True, **BUTTON)
-        on_click(self.take_home, lambda event: self.home.param.update(visible=not self.home.visible))
+        on_click(self.take_home, lambda event: self.home.view.param.update(visible=not self.home.view.visible))
         self.recipe = Download(self._runs, tuple, lambda: recipe().encode(), label=say("measure.recipe"),
                                filename="film-a-top.html")  # fmt: skip
 
@@ -91,16 +87,18 @@ class Measure:
         for button, name in zip(examples, EXAMPLES, strict=True):
             on_click(button, lambda event, name=name: self.take_example(name))
         if self.filmed.film:
-            self.in_link.value = True
-            self.take(unpacked(self.filmed.film))
+            self.home.in_link.value = True
+            self.take(unpacked(self.filmed.film), link=self.filmed.film)
         if self._table is None:
+            wrong = self.said.object
             self.take_example(FIRST)
+            self.said.object = wrong or self.said.object
         parts = {
-            "over": [self.pictures.view, self.part],
-            "found": [self.stage, self.found, self.file, self.said, flow(self.take_home, self.recipe), self.home,
+            "over": [self.said, self.over, self.pictures.view, self.part],
+            "found": [self.stage, self.found, self.file, flow(self.take_home, self.recipe), self.home.view,
                       flow(*examples), words(note(say("measure.private"))), self.about, flow(self.law), self.loose,
                       flow(self.start, self.cancel)],
-            "table": [_head("columns"), self.columns.view, _head("constants"), self.constants],
+            "table": [self.below, _head("constants"), self.constants],
         }  # fmt: skip
         sides = [pn.Column(*part, css_classes=[place], sizing_mode="stretch_width", margin=0)
                  for place, part in parts.items()]  # fmt: skip
@@ -151,59 +149,92 @@ class Measure:
         self.said.object = alert(sentence)
 
     def _brought(self, event):
-        text, each, _ = asked.parts(event.new, asked.text, asked.number, asked.number)
-        self.take(text, int(each))
+        kinds = asked.text, asked.number, asked.number, asked.text, asked.number
+        text, each, _, name, size = asked.parts(event.new, *kinds)
+        if each < 1:
+            self._not_taken(MeasuredError("too-large", size=size / 1000, most=LARGEST / 1000))
+        else:
+            self.take(text, int(each), name=name)
 
     def take_example(self, name):
         """Loads one of EXAMPLES, with default settings."""
         self._choose(LAW, ())
         self.take((FOLDER / f"made-{name}.csv").read_bytes(), example=name)
 
-    def take(self, text, each=1, example=""):
-        """Loads a table, bytes or text. If it cannot be read, the present one stays."""
+    def take(self, text, each=1, example="", name="", link=""):
+        """Loads a table, bytes or text, in place of all that came of the one before. If it cannot be read, that one
+        stays, and it is said that it does. name: of its file; link: what the page's link has of it already."""
         try:
             film, table = opened(text), read(text)
         except MeasuredError as error:
-            self._refused(error, each)
+            self._not_taken(error, each)
             return
-        self._coming = each, example, table, film
+        if film:
+            self._choose(film.law, film.loose)
+        elif self._of_file:
+            self._choose(LAW, ())  # these were the former film's
+        self._clear()
+        self._thinned, self._example, self._read, self._of_file, self._name = each, example, table, film, name
+        self._say_top()
+        self.filmed.film = link
         self.columns.show(table)
-        if film is None:
-            self._corrected(table)
-            return
-        self._choose(film.law, film.loose)
-        self._saved = film.fits
-        if self._corrected(table, film.part) and (film.fits or self._runs.beside):
+        self._saved = film.fits if film else ()
+        is_ready = self._corrected(table, film and film.part)
+        self._place_columns(self.below if is_ready else self.over)
+        if is_ready and film and (film.fits or self._runs.beside):
             self.compute()
         self._saved = ()
+
+    def _place_columns(self, place):
+        """Shows the columns there: where they are asked for, at the top, as long as this table is there."""
+        self.over.objects = self.below.objects = []
+        place.objects = [self.columns.view] if place is self.over else [_head("columns"), self.columns.view]
+
+    def _not_taken(self, error, each=1):
+        self._refused(error, each)
+        if self._table is not None:
+            name = name_of(self._name, self._example, self._of_file)
+            self.said.object += note(say("measure.still", name=name))
+
+    def _clear(self):
+        """Takes away what was computed of the data, and what is being computed."""
+        for run in (self._guess, self._run):
+            if run:
+                run.forget()
+        self._found, self._kept = None, {}
+        with pn.io.hold():  # Bokeh refuses changes of its figures without the document's lock
+            self.found.object, self.constants.objects = "", []
+            self.home.clear()
+            self.pictures.show(None)
+            show_film(self.stage, None, None)
+
+    def _cannot(self, error, each=1):
+        """Nothing can be fitted, because of this error."""
+        self._clear()
+        self.start.disabled = self.cancel.disabled = self.take_home.disabled = True
+        self._refused(error, each)
 
     def _refused(self, error, each=1):
         """each: the table contains every each-th row of the file."""
         self._wrong(say(f"measure.wrong.{error.code}", **in_file(error.numbers, each)))
 
     def _corrected(self, table, part=None):
-        """Uses the data of a corrected table; returns whether there is something to fit. If it gives no data, the
-        present ones stay."""
-        self._table, coming = table, self._coming
+        """Uses the data of a corrected table; returns whether there is something to fit."""
+        self._table = table
         try:
-            data = settled(table, self.columns.frames_a_second)
+            self._data = data = settled(table, self.columns.frames_a_second)
         except MeasuredError as error:
-            self._refused(error, coming[0] if coming else self._thinned)
-            self.start.disabled = True
+            self._data, self.part.visible = None, False
+            self.pictures.clear()
+            self._cannot(error, self._thinned)
             return False
-        if coming:  # the first data of another table
-            (self._thinned, self._example, self._read, self._of_file), self._coming = coming, None
-            self._say_top()
-            if self._of_file is None:
-                self.filmed.film = ""
-        self._data = data
         self.columns.show_errors(data)
         thinned = note(say("measure.thinned", each=self._thinned)) if self._thinned > 1 else ""
         first, last = float(data.t[0]), float(data.t[-1])
         longer = note(say("measure.longer", long=last - first, most=LONGEST)) if last - first > LONGEST else ""
-        self.said.object = note(notes_words(table.notes, self._thinned)) + thinned + longer
+        self._notes = note(notes_words(table.notes, self._thinned)) + thinned + longer
         start, end = part or (first, min(last, first + LONGEST))
-        self.part.param.update(start=first, end=last, value=(max(start, first), min(end, last)),
+        self.part.param.update(visible=True, start=first, end=last, value=(max(start, first), min(end, last)),
                                step=min(last - first, LONGEST) / 400 or 0.01)  # fmt: skip
         self._begin()
         return not self.start.disabled
@@ -214,6 +245,8 @@ class Measure:
 
     def _pulled(self, start):
         """The start of the motion was dragged there."""
+        if self._data is None:
+            return
         start = min(max(start, self.part.start), self.part.end)
         self.part.value = (start, max(self.part.value[1], start))
         self._begin()
@@ -224,18 +257,20 @@ class Measure:
         """Discards the previous fit, and shows the data with a motion that begins with the first values."""
         if self._data is None or self._silent:
             return
-        self._found, self._part = None, tuple(map(float, self.part.value))
-        self.home.visible, self.take_home.disabled = False, not (self._is_at_hand and self._runs.beside)
+        self._found, self._kept, self._part = None, {}, tuple(map(float, self.part.value))
+        self.home.clear()
+        self.take_home.disabled = not (self._is_at_hand and self._runs.beside)
         try:
             data = part_of(self._data, *self._part)
         except MeasuredError as error:
-            self._refused(error)
-            self.start.disabled = self.take_home.disabled = True
+            self._cannot(error)
             return
+        self.said.object = self._notes
         self.start.disabled, self.found.object = False, note(say("measure.ready"))
         top, scales, *_ = self._body
         model = self._models()[1]
-        self._runs.begin(Run(lambda run: (placed(model, data), kept(data, top, scales)), self._drawn), "guess")
+        self._guess = Run(lambda run: (placed(model, data), kept(data, top, scales)), self._drawn)
+        self._runs.begin(self._guess, "guess")
         if self._run:
             self._run.forget()
             self.cancel.disabled = True
@@ -260,8 +295,7 @@ class Measure:
         first, self._kept = result
         if self._found is None:  # else the fit was faster
             self.pictures.show(first)
-            if first is not None:
-                show_film(self.stage, first, self._body[3])
+            show_film(self.stage, first, self._body[3])
             if self.cancel.disabled:
                 self.found.object = note(say("measure.ready")) + kept_words(self._kept)
         missing = [] if "K_J" in self._kept else [words(note(say("measure.no_constants")))]
@@ -271,6 +305,8 @@ class Measure:
 
     def compute(self, event=None):
         """Computes both fits in a thread, or takes those of a saved film."""
+        if self._data is None:
+            return
         data, both, fits = self._data.between(*self._part), self._models(), self._saved
         if self._is_whole_example:
             asked_for = self._example, self.law.value, self._loose
@@ -294,14 +330,13 @@ class Measure:
                 raise result
             return
         self._found = result
-        self._taken = self._film()
         self.found.object = result_words(result, self._again)
         self.pictures.show(result.motion, result.better)
         show_film(self.stage, result.motion, self._body[3])
         self.take_home.disabled = False
-        self._put_in_link()
-
-    # ---- downloads ----
+        says = f"<p>{source_words(self._example, self._of_file)}.</p>{self.found.object}"
+        data = self._data.between(*self._part)
+        self.home.show(self._film(), data, result.fits, self._loose, self._part, says, result.kept)
 
     def _film(self):
         """The text of the film with the present fit."""
@@ -309,40 +344,6 @@ class Measure:
         film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape,
                     tuple(said_of(each) for each in self._found.fits) if self._found else ())  # fmt: skip
         return written(film, self._data)
-
-    def _put_in_link(self):
-        """Puts the film into the link, if wanted and short enough."""
-        wanted = self.in_link.value
-        if wanted and self._found is None:  # not fitted yet: the link keeps what it had
-            return
-        self.filmed.film = packed(self._taken) if wanted else ""
-        too_long = wanted and not self.filmed.film
-        says = say("measure.too_long_for_link") if too_long else say("measure.is_in_link") if wanted else ""
-        self.of_link.object = note(says)
-
-    def _downloads(self):
-        yield Download(self._runs, lambda: (self._taken,), str.encode, label=say("measure.home.film"),
-                       filename="top-on-film.csv")  # fmt: skip
-        kinds = {"report": "top-on-film.html", "residuals": "residuals.csv", "program": "repeat_fit.py"}
-        for kind, name in kinds.items():
-            yield Download(self._runs, lambda: self._home, getattr(self, f"_{kind}"), label=say(f"measure.home.{kind}"),
-                           filename=name)  # fmt: skip
-
-    @property
-    def _home(self):
-        """The data for the downloaded files."""
-        found = self._found
-        says = f"<p>{source_words(self._example, self._of_file)}.</p>{self.found.object}"
-        return self._data.between(*self._part), found.fits, self._loose, self._part, says, found.kept
-
-    def _report(self, data, fits, loose, part, found, kept):
-        return report(data, fits, found, program(data, fits, loose, *part), kept).encode()
-
-    def _residuals(self, data, fits, *others):
-        return residuals_table(data, min(fits, key=lambda each: each.aic)).encode()
-
-    def _program(self, data, fits, loose, part, *others):
-        return program(data, fits, loose, *part).encode()
 
 
 def _head(name):

@@ -3,7 +3,7 @@ follow."""
 
 from app.bundle import pack
 from app.text import say
-from app.widgets.film_stage import FilmStage, put_motion
+from app.widgets.film_stage import FilmStage, clear_motion, put_motion
 
 
 def film_stage():
@@ -13,7 +13,10 @@ def film_stage():
 
 
 def show_film(stage, shown, outline):
-    """Shows a Shown on the stage. outline: (k, 2), that of the body."""
+    """Shows a Shown on the stage; None: nothing. outline: (k, 2), that of the body."""
+    if shown is None:
+        clear_motion(stage)
+        return
     start = shown.t[0] + 0.6 * (shown.t[-1] - shown.t[0])
     label = say("measure.axis" if shown.azimuths else "measure.axis_tilt")
     put_motion(stage, shown.t, shown.motion, outline, start, measured=pack(shown.axis), measured_label=label)

@@ -60,6 +60,11 @@ def source_words(example, of_file):
     return say("measure.saved" if of_file else "measure.own")
 
 
+def name_of(file, example, of_file):
+    """What a film is called: by the name of its file, if it has one."""
+    return html.escape(file) or (listed("measure.examples")[example] if example else source_words("", of_file))
+
+
 def kept_words(kept):
     """Whether the constants of the motion were conserved, from the data alone, and what that means."""
     parts = []

@@ -14,7 +14,7 @@ from app.model.planes.wells import wells
 from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say, written
-from app.widgets.plots import draw, plain
+from app.widgets.plots import draw, on_click, on_pointer, plain
 from tippe_core import PRESETS as BODIES
 
 CLOCK = "planes"
@@ -221,7 +221,7 @@ class Map:
         self.here = ColumnDataSource({"x": [], "y": []})
         draw(fig, Scatter, "x", "y", source=self.here, size=13, fill_color=COLOURS["friction"], line_color="white",
              line_width=2, level="overlay")  # fmt: skip
-        fig.on_event("tap", self._tapped)
+        on_click(fig, self._tapped)
 
     def _tapped(self, event):
         (left, right), (low, high) = MAP_X, MAP_Y
@@ -245,6 +245,4 @@ def follow_clock(figures, well):
                   steady=well.steady, none=well.none, range=well.figure.y_range, clock=CLOCK)  # fmt: skip
     well.figure.js_on_change("inner_width", follow)
     for figure in figures.figures.values():
-        seek = call("seekAlong", path=well.path, clock=CLOCK)
-        for event in ("tap", "panstart", "pan", "panend"):
-            figure.js_on_event(event, seek)
+        on_pointer(figure, call("seekAlong", path=well.path, clock=CLOCK))

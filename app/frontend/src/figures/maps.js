@@ -3,7 +3,7 @@
 // the bead from cell to cell.
 import { elementOf, eventsOf, scalesOf } from "../borrowed.js";
 import { clamp } from "./curves.js";
-import { isFollowed } from "./seeking.js";
+import { gestureOf, isFollowed } from "./seeking.js";
 
 const REACH = 40; // px
 const LEAST = 12; // px: the smallest box
@@ -30,8 +30,8 @@ function awayFromBead({ data }, [px, py], { x, y }) {
 }
 
 /** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y">, box: Settable }} given @param {Happened} event */
-export function pullBead({ fig, hand, bead, box }, { event_name: name, sx, sy, x, y }) {
-  const own = stateOf(hand), clicked = name === "tap";
+export function pullBead({ fig, hand, bead, box }, event) {
+  const { sx, sy, x, y } = event, name = gestureOf(event), own = stateOf(hand), clicked = name === "tap";
   const { x_range: across, y_range: up } = fig;
   const place = { x: clamp(x, across.start, across.end), y: clamp(y, up.start, up.end) };
   if (name === "panstart") {

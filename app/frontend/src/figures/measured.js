@@ -1,7 +1,7 @@
 // The figures of a measured film: a line at the time of the film, and a handle for the moment at which a motion begins.
 import { scalesOf, setCursor } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
-import { followClock, isDown, isFollowed, seek } from "./seeking.js";
+import { followClock, gestureOf, isDown, isFollowed, seek } from "./seeking.js";
 
 const CLOCK = "film";
 const REACH = 16; // px: a drag that starts this close to the line of the start moves the start, any other one the time
@@ -20,9 +20,9 @@ export function followFilm({ spans }) {
   move(timeOf(CLOCK));
 }
 
-/** @param {{ fig: any, hand: any, starts: any[], curves: any[] }} given @param {any} event */
+/** @param {{ fig: any, hand: any, starts: any[], curves: any[] }} given @param {Happened} event */
 export function pullFilm({ fig, hand, starts, curves }, event) {
-  const { x, sx, event_name: name } = event, { start, end } = fig.x_range;
+  const { x, sx } = event, name = gestureOf(event), { start, end } = fig.x_range;
   const near = Math.abs(scalesOf(fig).x.compute(starts[0].location) - sx) < REACH;
   if (name === "mousemove") return setCursor(fig, near ? "ew-resize" : "pointer");
   if (name === "panstart" && near) {

@@ -6,7 +6,7 @@ import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
 import { awayFromTieline, gripAt, REACH } from "./grips.js";
 import { hideReadout, showReadout } from "./readout.js";
-import { followClock, isFollowed, seek } from "./seeking.js";
+import { followClock, gestureOf, isFollowed, seek } from "./seeking.js";
 
 const CURSORS = { bead: "grab", end: "ew-resize", line: "ns-resize" };
 
@@ -61,7 +61,7 @@ export function followMotion({ fig, hand, motion, selected }) {
 
 /** @param {Record<string, any> & { motion: Source }} given @param {Happened} event */
 export function pullPlane(given, event) {
-  const { fig, hand, selected, limits } = given, { x, y, event_name: name } = event;
+  const { fig, hand, selected, limits } = given, { x, y } = event, name = gestureOf(event);
   const own = handOf(hand), row = rowOf(selected), scales = scalesOf(fig);
   const at = (point) => gripAt(row, limits.data, point, [x, y], scales);
   const over = () => at([scales.x.compute(x), scales.y.compute(y)]);

@@ -8,6 +8,10 @@ export function seek(t, held, clock = "") {
 /** @param {Pick<Happened, "event_name">} event */
 export const isDown = ({ event_name: name }) => name === "panstart" || name === "pan";
 
+// What Bokeh calls it, but a click that comes soon after another is one too.
+/** @param {Pick<Happened, "event_name">} event */
+export const gestureOf = ({ event_name: name }) => (name === "doubletap" ? "tap" : name);
+
 // Takes the time from the figure's time axis. path: its tags have the unit of that axis.
 /** @param {{ clock?: string, path?: Source }} given @param {Happened} event */
 export function seekAlong({ clock, path }, event) {

@@ -37,7 +37,7 @@ export function renderFilmStage({ model, el, view }) {
     shape.setAttribute("d", playing ? PAUSE : PLAY);
     play.setAttribute("aria-label", playing ? texts.pause : texts.play);
   }
-  let tilts = new Float32Array();
+  let tilts = new Float32Array(), shows = false;
   const hear = ({ detail: { t, index, playing } }) => {
     if (playing !== top.model.playing) put({ playing });
     const tilt = tilts[Math.min(index, tilts.length - 1)];
@@ -48,11 +48,11 @@ export function renderFilmStage({ model, el, view }) {
     tilts = float32(model.tilts);
     pill.hidden = play.hidden = !some;
     none.hidden = some;
-    put({ profile: model.profile, a: model.a, measured_label: model.measured_label, measured: model.measured, frames: model.frames });
-    if (some && !top.begun) {
-      top.model.time = model.start;
-      top.begin();
-    }
+    top.element.hidden = !some;
+    if (some && !shows) top.model.time = model.start; // where a motion begins that comes after none
+    shows = some;
+    put({ ...(!some && { playing: false }), profile: model.profile, a: model.a, measured_label: model.measured_label, measured: model.measured, frames: model.frames });
+    if (some) top.begin();
   });
   for (const name of ["frames", "profile", "tilts", "measured", "a"]) model.on(name, show);
   window.addEventListener(`tippe:clock:${clock}`, hear);

@@ -19,29 +19,46 @@ const FRAME = `<style>
     <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
 const ABOVE = 3; // lines above the values that a table may have
 const SPARE = 1.05; // margin, because lines differ in length
+const MORE = 1.2; // and where that is too little, how many times as many rows are left out in each attempt
 const CHUNK = 1 << 22; // bytes read at a time
 const LOOK = 4096; // bytes from which the kind of a file is recognised
+const LETTERS = 200; // of a file's name
 const LONG = /(\d[.,]\d{7})\d+/g; // more digits than a film can have
 
-/** @typedef {{ most: number, rows: number, head: number }} Limits characters, rows, and the first lines that are always kept */
+/** @typedef {{ most: number, rows: number, head: number }} Limits bytes of a text as it is sent, rows, and the first lines that are always kept */
+/** @typedef {[text: string, each: number]} Kept what is kept, and one in how many rows of the file that is */
+
+/** @type {Kept} */
+const TOO_LARGE = ["", 0];
 
 /** @param {number} length @param {number} most @returns {number} each how-manieth row is kept */
 const everyOf = (length, most) => (length <= most ? 1 : Math.ceil(length / most * SPARE));
 
+// A message is JSON, where a tab or a quote takes two bytes.
+/** @param {string} text @returns {number} bytes */
+export const sizeOf = (text) => new TextEncoder().encode(JSON.stringify(text)).length;
+
 // The first lines are always kept, because they contain the names. Of the others, those are kept whose number in the
-// file is divisible by `each`, so that Python can tell where in the file a line was.
+// file is divisible by `each`, so that Python can tell where in the file a line was. If the lines are so long that none
+// of the others can be kept, it is TOO_LARGE.
 /**
  * @param {string} text @param {Limits} limits
  * @param {number[] | null} [numbers] the numbers of its lines in the file, from 0
  * @param {number} [before] the file has already been thinned to one line in `before`
- * @returns {[string, number]} what is kept, and one in how many rows of the file that is
+ * @returns {Kept}
  */
 export function thinned(text, { most, rows, head }, numbers = null, before = 1) {
-  const short = text.length <= most ? text : text.replace(LONG, "$1"), lines = short.split(/\r\n|\r|\n/);
-  const few = lines.length <= rows + ABOVE, more = Math.max(everyOf(short.length, most), few ? 1 : Math.ceil((lines.length - head) / (rows - head)));
+  const short = sizeOf(text) <= most ? text : text.replace(LONG, "$1"), lines = short.split(/\r\n|\r|\n/), size = sizeOf(short);
+  const few = lines.length <= rows + ABOVE, number = (i) => (numbers ? numbers[i] : i), last = number(lines.length - 1);
+  let more = Math.max(everyOf(size, most), few ? 1 : Math.ceil((lines.length - head) / (rows - head)));
   if (more === 1) return [short, before];
-  const each = more * before, number = (i) => (numbers ? numbers[i] : i);
-  return [lines.filter((_, i) => number(i) < head || number(i) % each === 0).join("\n"), each];
+  while (more * before <= last) {
+    const each = more * before, kept = lines.filter((_, i) => number(i) < head || number(i) % each === 0);
+    const text = kept.join("\n");
+    if (sizeOf(text) <= most) return kept.slice(head).some(Boolean) ? [text, each] : TOO_LARGE;
+    more = Math.ceil(more * MORE); // its lines differ in length
+  }
+  return TOO_LARGE;
 }
 
 /** @param {Uint8Array} bytes the beginning of a file @returns {string} its encoding */
@@ -56,7 +73,7 @@ export function encodingOf(bytes) {
 /**
  * @param {Blob} file @param {Limits} limits
  * @param {(share: number) => void} reached
- * @returns {Promise<[string, number]>}
+ * @returns {Promise<Kept>}
  */
 export async function readFile(file, limits, reached) {
   const { most, head } = limits;
@@ -71,7 +88,7 @@ export async function readFile(file, limits, reached) {
     const bytes = await file.slice(at, at + CHUNK).arrayBuffer(), last = at + CHUNK >= file.size;
     const lines = (rest + stream.decode(bytes, { stream: !last })).split(/\r\n|\r(?!$)|\n/);
     rest = last ? "" : lines.pop() ?? "";
-    if (rest.length > most) return [sample, 1]; // no table has such a long line
+    if (rest.length > most) return TOO_LARGE; // no table has such a long line
     for (const each_line of lines) {
       if (line < head || line % each === 0) {
         kept.push(each_line.replace(LONG, "$1"));
@@ -98,16 +115,18 @@ export function renderMeasuredFile({ model, el, view }) {
   area.setAttribute("aria-label", texts.paste);
   area.placeholder = texts.paste;
   let count = model.table[2] ?? 0;
-  /** @param {[string, number]} table */
-  const send = ([text, each]) => {
+  /** @param {Kept} kept @param {number} size of all that was brought, in bytes @param {string} [name] */
+  const send = ([text, each], size, name = "") => {
     count += 1;
-    model.table = [text, each, count]; // choosing the same file again counts as well
+    model.table = [text, each, count, name.slice(0, LETTERS), size]; // choosing the same file again counts as well
   };
+  const sendTyped = () => send(thinned(area.value, model), sizeOf(area.value));
   /** @param {File | undefined} file */
   const read = async (file) => {
     if (!file) return;
     try {
-      send(await readFile(file, model, (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }))));
+      const reached = (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }));
+      send(await readFile(file, model, reached), file.size, file.name);
       says.textContent = "";
     } catch {
       says.textContent = fill(texts.unreadable, { name: file.name });
@@ -117,9 +136,9 @@ export function renderMeasuredFile({ model, el, view }) {
     await read(input.files?.[0]);
     input.value = "";
   };
-  area.onchange = () => area.value.trim() && send(thinned(area.value, model));
+  area.onchange = () => area.value.trim() && sendTyped();
   area.onpaste = () => setTimeout(() => {
-    send(thinned(area.value, model));
+    sendTyped();
     area.value = "";
   });
   const isSeen = () => el.isConnected && el.clientWidth > 0, brings = (event) => event.dataTransfer?.types.includes("Files");

@@ -1,0 +1,43 @@
+"""Each click in a figure counts. Bokeh calls the second of two quick ones a doubletap, and not a tap as well."""
+
+import ast
+from pathlib import Path
+
+import pytest
+from bokeh.events import DoubleTap, Tap
+from bokeh.models import CustomJS
+
+import app
+from app.widgets.plots import on_click, on_pointer, plain
+
+APP = Path(app.__file__).parent
+LISTENS = "widgets/plots.py"  # where a figure is made to listen to clicks
+NAMES = "frontend/src/figures/seeking.js"  # where gestures are named
+
+
+@pytest.mark.parametrize("path", sorted(APP.rglob("*.py")), ids=lambda path: path.relative_to(APP).as_posix())
+def test_no_figure_listens_to_the_first_of_two_clicks_alone(path):
+    words = {node.value for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.Constant)}
+    allowed = path == APP / LISTENS or path == APP / "server" / "messages.py"  # the latter: what a browser may send
+    assert allowed or "tap" not in words
+
+
+def test_the_browser_takes_the_second_click_for_a_click():
+    scripts = [path for path in (APP / "frontend" / "src").rglob("*.js") if "event_name" in path.read_text("utf-8")]
+    assert scripts == [APP / NAMES]
+
+
+def test_a_figure_hears_both_clicks_in_python():
+    fig, heard = plain(), []
+    on_click(fig, lambda event: heard.append(event.x))
+    for kind, x in ((Tap, 0.3), (DoubleTap, 0.5)):
+        fig._trigger_event(kind(fig, x=x))
+    assert heard == [0.3, 0.5]
+    assert fig.subscribed_events == {"tap", "doubletap"}  # which the browser sends, and the server accepts
+
+
+def test_a_figure_hears_both_clicks_in_the_browser():
+    fig, act = plain(), CustomJS(code="")
+    on_pointer(fig, act, "mousemove")
+    names = ("tap", "doubletap", "panstart", "pan", "panend", "mousemove")
+    assert fig.js_event_callbacks == {name: [act] for name in names}
