@@ -39,7 +39,6 @@ def go(chromium):
     yield open_
     for visit in visits:
         visit.page.close()
-    assert [error for visit in visits for error in visit.errors] == []
 
 
 def thumb(visit, place=K_J_FIELD):

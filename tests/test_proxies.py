@@ -151,7 +151,7 @@ def signs_in(page, root):
     """Opens the page through the login, and moves K_J."""
     page.goto(f"{root}/tops/app?tab=roll")
     page.get_by_text("Sign in").click()
-    page.wait_for_function("window.__tippe?.top3d?.pictures > 2", timeout=60_000)
+    page.wait_for_function("window.__tippe?.top3d?.pictures > 2")
     set_K_J(page, "6.5")
 
 
@@ -159,7 +159,7 @@ def loses(page, server):
     """The server goes, and the page is loaded again."""
     page.evaluate("window.mark = 1")
     server.process.kill()
-    page.get_by_text("Sign in").wait_for(timeout=60_000)  # the login answers, so the page loads
+    page.get_by_text("Sign in").wait_for()  # the login answers, so the page loads
 
 
 def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(page, tmp_path):
@@ -175,7 +175,7 @@ def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(
                 Login.good.clear()
                 loses(page, server)
             with served(tmp_path / "again", **settings):
-                page.get_by_text("Sign in").click(timeout=60_000)
+                page.get_by_text("Sign in").click()
                 has_come_back(page, "6.5")
     finally:
         login.shutdown()
@@ -196,5 +196,5 @@ def test_a_login_of_apache_that_ran_out_is_asked_for_again_and_leads_back_to_wha
             set_K_J(page, "6.6")  # an open page stays open
             loses(page, server)
         with served(tmp_path / "again", **settings):
-            page.get_by_text("Sign in").click(timeout=60_000)
+            page.get_by_text("Sign in").click()
             has_come_back(page, "6.6")
