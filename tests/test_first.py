@@ -10,6 +10,7 @@ from urllib.parse import urljoin
 import numpy as np
 import pytest
 from lab_page import DRAWN, TIME, TOPS, come
+from watching import LOST
 
 from app.page import first
 from app.state.keep import read
@@ -67,7 +68,8 @@ def test_what_must_arrive_before_the_first_frame_is_small(server):
 
 
 @pytest.mark.served
-def test_it_moves_without_bokeh_and_a_session(server, chromium):
+def test_it_moves_without_bokeh_and_a_session(server, chromium, page_errors):
+    page_errors.allow(f"{LOST}|Bokeh|Panel")
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     page.route("**/bokeh*.js*", lambda route: route.abort())
     page.goto(f"{server}?")
@@ -101,7 +103,8 @@ def test_bokeh_is_asked_for_after_it_and_no_font_at_all(server, chromium):
 
 @pytest.mark.served
 @pytest.mark.parametrize("lost", ["arrival.gz", "static/tippe.js"])
-def test_the_rest_comes_even_where_it_does_not(server, chromium, lost):
+def test_the_rest_comes_even_where_it_does_not(server, chromium, lost, page_errors):
+    page_errors.allow(f"{LOST}|Failed to fetch")
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     page.route(f"**/*{lost}*", lambda route: route.abort())
     page.goto(f"{server}?")

@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import expect
 from serving import served
 from visiting import Visit
+from watching import LOST
 
 from app.model.explorer import Explorer
 from app.model.lesson import lesson, parts
@@ -258,8 +259,9 @@ def test_a_class_with_two_phones(browser, phones, server):
         closed(each)
 
 
-def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path):
+def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path, page_errors):
     """Everything is in the page already; it says that the votes wait, and does not reload."""
+    page_errors.allow(LOST)
     with ExitStack() as network, served(tmp_path / "log", votes=tmp_path / "votes"):
         own = network.enter_context(served(tmp_path / "own", votes=tmp_path / "votes"))
         page = opened(browser, f"{own.url}?tab=learn", 1400, 900).page

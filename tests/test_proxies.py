@@ -15,6 +15,7 @@ from openid import SECRET, provider
 from serving import listens, served, until
 from test_faults import has_come_back, set_K_J
 from visiting import Visit, free_port
+from watching import LOST
 
 pytestmark = [pytest.mark.served, pytest.mark.slow]
 DEPLOY = Path(__file__).parent.parent / "deploy"
@@ -94,7 +95,8 @@ def proxied(name, folder, behind, login=None):
 
 
 @pytest.fixture
-def page(chromium):
+def page(chromium, page_errors):
+    page_errors.allow(LOST)
     context = chromium.new_context(viewport={"width": 1400, "height": 900}, ignore_https_errors=True)
     yield context.new_page()
     context.close()
