@@ -39,15 +39,16 @@ def pytest_configure(config):
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
-    """Stores how the pages look when a test fails, before its fixtures close them."""
+    """Stores how the pages look when a test first fails, before its fixtures close them."""
     report = yield
     watch = item.config.stash.get(WATCH, None)
-    if watch and report.failed and uses_a_browser(item):
+    if watch and report.failed and uses_a_browser(item) and not item.stash.get(STORED, False):
+        item.stash[STORED] = True
         report.sections.append(("the pages at this failure", f"{watch.store(item.nodeid)}"))
     return report
 
 
-WATCH = pytest.StashKey()
+WATCH, STORED = pytest.StashKey(), pytest.StashKey()
 
 
 def uses_a_browser(item):
@@ -62,6 +63,7 @@ def page_errors(request):
         return
     request.getfixturevalue("chromium")
     watch = request.config.stash[WATCH]
+    watch.console.clear()
     yield watch
     assert watch.end() == []
 

@@ -21,10 +21,14 @@ def come(page, url):
 
 @contextmanager
 def arrival(server, chromium, **like):
-    """The page on arrival in a browser context like this one; nothing moves by itself unless it asks for motion."""
+    """The page on arrival, with its session and its whole run, in a browser context like this one. Nothing moves by
+    itself unless the context wants motion."""
     like = {"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce"} | like
     with chromium.new_context(**like) as context:
-        yield come(context.new_page(), f"{server}?").page
+        page = come(context.new_page(), f"{server}?").page
+        page.locator("#first").wait_for(state="detached")
+        page.locator(".lab[data-whole]").wait_for()
+        yield page
 
 
 def pause(page):
