@@ -37,7 +37,7 @@ SECTION = """(column) => {
 }"""
 # The greatest height above O of the body that is turned in 3-D, in R.
 DRAWN = """() => {
-  const top = [...Bokeh.documents[0]._all_models.values()].find((m) => m.attributes.data?.attributes.profile)
+  const top = [...Bokeh.documents[0]._all_models.values()].find((m) => m.attributes.data?.attributes?.profile)
   const profile = top.data.profile
   const rows = new Float32Array(profile.buffer ?? profile)
   return Math.max(...rows.filter((_, i) => i % 2))
