@@ -12,7 +12,7 @@ expect.set_options(timeout=PATIENCE)
 
 FAILURES = Path(__file__).parent / "failures"  # ignored by git
 ABORTED = "net::ERR_ABORTED"  # a page that is left stops its requests
-LOST = r"(?i)websocket|net::ERR_|Failed to load resource"  # what a page says whose server does not answer
+LOST = r"(?i)websocket|not connected|net::ERR_|Failed to load resource"  # what a page says whose server does not answer
 
 
 class Watch:
