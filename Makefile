@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js app/frontend/src/*/*.js app/model/*.json)
 
-.PHONY: serve kernels check quick test proof source pythons lock validation docs bench image browser proxy redis
+.PHONY: serve kernels check quick test durations proof source pythons lock validation docs bench image browser proxy redis
 
 serve: kernels
 	$(BIN)/python -m app --address localhost --show
@@ -12,8 +12,9 @@ serve: kernels
 kernels: .venv/serve
 	$(BIN)/python -m tippe_core
 
-# One process for each core; the tests of a file stay together, because many share a server and a page.
-PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile
+# One process for each core; the tests of a file stay together, because many share a server. tests/durations.py has the
+# order. To repeat an order: make test ORDER=--randomly-seed=SEED; ORDER=--shortest-first runs the shortest files first.
+PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder $(ORDER)
 
 # About a minute: all tests except those that start a server or a browser, or take seconds.
 check: .venv/test .venv/frontend
@@ -25,6 +26,10 @@ quick: .venv/test kernels
 # The whole suite on this Python.
 test: .venv/test kernels source browser proxy redis
 	$(PYTEST)
+
+# The whole suite, and writes tests/durations.json.
+durations: .venv/test kernels browser proxy redis
+	$(PYTEST) --write-durations
 
 # Linters, type checkers and the JavaScript tests; node is the one that comes with the build.
 FRONTEND = tests/frontend
@@ -80,6 +85,7 @@ image:
 browser: .venv/test
 	@command -v chromium >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium; } \
+	|| { [ "$$(id -u)" = 0 ] && $(BIN)/playwright install --with-deps chromium; } \
 	|| $(BIN)/playwright install chromium
 
 # Proxies for the tests of the files in deploy/, which are skipped without them.
@@ -89,7 +95,8 @@ proxy:
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq $$each; } \
 	|| echo "$$each is not installed: its test will skip"; done
 	@[ -e /usr/lib/apache2/modules/mod_auth_openidc.so ] \
-	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get install -y -qq libapache2-mod-auth-openidc; } \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq \
+	&& apt-get install -y -qq libapache2-mod-auth-openidc; } \
 	|| echo "mod_auth_openidc is not installed: its test will skip"
 
 # Redis for the tests of votes, half of which are skipped without it.

@@ -6,17 +6,17 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
-import urllib.request
 from pathlib import Path
 
 import pytest
 import references
+from durations import Durations
 from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
-from serving import redis_serving
+from serving import answers, redis_serving, until
 from visiting import Visit, free_port, launch
+from watching import Watch
 
 settings.register_profile(
     "repeatable", derandomize=True, deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow]
@@ -26,10 +26,46 @@ settings.load_profile("repeatable")
 
 def pytest_addoption(parser):
     parser.addoption("--remake", action="store_true", help="compute the slow oracles' answers again and store them")
+    parser.addoption("--write-durations", action="store_true", help="store how long each file of tests takes")
+    parser.addoption(
+        "--shortest-first", action="store_true", help="run the shortest files of tests first, not the longest"
+    )
 
 
 def pytest_configure(config):
     references.REMAKE = config.getoption("--remake")
+    config.pluginmanager.register(Durations(config))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Stores how the pages look when a test first fails, before its fixtures close them."""
+    report = yield
+    watch = item.config.stash.get(WATCH, None)
+    if watch and report.failed and uses_a_browser(item) and not item.stash.get(STORED, False):
+        item.stash[STORED] = True
+        report.sections.append(("the pages at this failure", f"{watch.store(item.nodeid)}"))
+    return report
+
+
+WATCH, STORED = pytest.StashKey(), pytest.StashKey()
+
+
+def uses_a_browser(item):
+    return "chromium" in item.fixturenames
+
+
+@pytest.fixture(autouse=True)
+def page_errors(request):
+    """The Watch of the browser. An error in a page fails the test in which it happens, unless the test allows it."""
+    if not uses_a_browser(request.node):
+        yield None
+        return
+    request.getfixturevalue("chromium")
+    watch = request.config.stash[WATCH]
+    watch.console.clear()
+    yield watch
+    assert watch.end() == []
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -51,9 +87,10 @@ def redis():
 
 
 @pytest.fixture(scope="session")
-def chromium():
+def chromium(request):
     with sync_playwright() as playwright:
         browser = launch(playwright)
+        request.config.stash[WATCH] = Watch(browser)
         yield browser
         browser.close()
 
@@ -67,27 +104,18 @@ def server():
         cwd=Path(__file__).parent.parent,
     )
     url = f"http://localhost:{port}/app"
-    deadline = time.monotonic() + 60
-    while True:
-        try:
-            urllib.request.urlopen(url, timeout=60).close()
-            break
-        except OSError:
-            if process.poll() is not None or time.monotonic() > deadline:
-                process.terminate()
-                pytest.fail(f"panel serve app did not answer on {url}")
-            time.sleep(0.1)
-    yield url
-    process.terminate()
-    process.wait()
+    try:
+        until(lambda: process.poll() is not None or answers(url))
+        assert process.poll() is None, "panel serve app has ended"
+        yield url
+    finally:
+        process.terminate()
+        process.wait()
 
 
-@pytest.fixture(scope="module", params=[(1400, 900)], ids=["1400x900"])
+@pytest.fixture(params=[(1400, 900)], ids=["1400x900"])
 def visit(request, server, chromium):
-    """A Visit that all tests of a file share, in a window of this size. An error in the page fails the last test."""
+    """A Visit in a window of this size. Nothing moves by itself, because software drawing slows everything."""
     width, height = request.param
-    page = chromium.new_page(viewport={"width": width, "height": height})
-    visit = Visit(page, server)
-    yield visit
-    page.close()
-    assert not visit.errors
+    with chromium.new_context(viewport={"width": width, "height": height}, reduced_motion="reduce") as context:
+        yield Visit(context.new_page(), server)

@@ -1,5 +1,7 @@
 """The Lab in Chromium: what its browser tests read and do."""
 
+from contextlib import contextmanager
+
 from visiting import Visit
 
 from app.model.lab.run import TOYS
@@ -17,12 +19,16 @@ def come(page, url):
     return visit
 
 
-def one_visit(server, chromium):
-    """The page on arrival. All tests of a file share it, in order, and fail if it has an error."""
-    visit = come(chromium.new_page(viewport={"width": 1400, "height": 900}), f"{server}?")
-    yield visit
-    visit.page.close()
-    assert not visit.errors
+@contextmanager
+def arrival(server, chromium, **like):
+    """The page on arrival, with its session and its whole run, in a browser context like this one. Nothing moves by
+    itself unless the context wants motion."""
+    like = {"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce"} | like
+    with chromium.new_context(**like) as context:
+        page = come(context.new_page(), f"{server}?").page
+        page.locator("#first").wait_for(state="detached")
+        page.locator(".lab[data-whole]").wait_for()
+        yield page
 
 
 def pause(page):

@@ -4,11 +4,10 @@ import threading
 from queue import Queue
 from types import SimpleNamespace
 
+from patience import PATIENCE
 from serving import until
 
 from app.model.runs import WORK, Run, Runs
-
-PATIENCE = 60  # s
 
 
 class Page:

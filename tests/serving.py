@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from patience import PATIENCE, poll
 from visiting import free_port
 from wire import get
 
@@ -44,7 +45,7 @@ def served(output, wait=True, before=(), arguments=(), **settings):
     root = f"http://127.0.0.1:{settings['port']}"
     try:
         if wait:
-            until(lambda: process.poll() is not None or answers(root + "/liveness"), 60)
+            until(lambda: process.poll() is not None or answers(root + "/liveness"))
             assert process.poll() is None, output.read_text(encoding="utf-8")
         yield Served(process, root + settings.get("prefix", "") + "/app", output)
     finally:
@@ -80,7 +81,7 @@ def serving(command, output, folder):
                                    stderr=subprocess.STDOUT)  # fmt: skip
     url = f"http://localhost:{port}/app"
     try:
-        until(lambda: process.poll() is not None or answers(url), 120)
+        until(lambda: process.poll() is not None or answers(url))
         yield Served(process, url, output)
     finally:
         process.terminate()
@@ -100,10 +101,6 @@ def answers(url):
         return False
 
 
-def until(condition, seconds=20):
+def until(condition, seconds=PATIENCE):
     """Waits until a condition is true, and returns its value."""
-    end = time.monotonic() + seconds
-    while not (found := condition()):
-        assert time.monotonic() < end, "waited too long"
-        time.sleep(0.05)
-    return found
+    return poll(condition, lambda: time.sleep(0.05), seconds)

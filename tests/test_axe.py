@@ -2,7 +2,7 @@
 
 import pytest
 from axe_playwright_python.base import AXE_SCRIPT
-from visiting import PATIENCE, WHOLE, go_to
+from visiting import WHOLE, go_to
 
 pytestmark = pytest.mark.served
 
@@ -111,7 +111,6 @@ LIGHT, DARK, LARGE, DARK_LARGE = (False, False), (True, False), (False, True), (
 
 def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(chromium, server):
     page = chromium.new_context(viewport={"width": 1400, "height": 1000}, reduced_motion="reduce").new_page()
-    page.set_default_timeout(PATIENCE)
     asked = []
     page.on("request", lambda request: asked.append(request.url))
     page.goto(f"{server}?tab=roll")
@@ -155,7 +154,6 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
     phone = chromium.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", is_mobile=True,
                                  has_touch=True, user_agent="Mozilla/5.0 (Linux; Android 14) Mobile")  # fmt: skip
     page = phone.new_page()
-    page.set_default_timeout(PATIENCE)
     page.goto(server)  # the page on arrival
     awaited("button:text-is('Spin it'):visible")(page)
     page.evaluate(AXE_SCRIPT)

@@ -151,7 +151,7 @@ def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
     """2. The bundle runs once for all Panel components and for our own; Panel's own way would run it twice."""
     page = chromium.new_page()
     page.goto(f"{server}?v=1&tab=roll")
-    page.wait_for_selector(".bar .play", timeout=60_000)
+    page.wait_for_selector(".bar .play")
     same = """async (way) => {
       const links = [...document.querySelectorAll("link[rel=modulepreload]")].map((link) => link.href);
       const href = links.find((address) => address.includes("tippe.js"));

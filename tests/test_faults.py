@@ -13,6 +13,7 @@ import pytest
 import visitors
 from serving import answers, served, until
 from visiting import Visit, free_port
+from watching import LOST as LOST_SERVER
 from wire import Visitor, get, run
 
 pytestmark = pytest.mark.served
@@ -54,7 +55,8 @@ def has_come_back(page, K_J):
 
 
 @pytest.fixture
-def page(chromium):
+def page(chromium, page_errors):
+    page_errors.allow(LOST_SERVER)
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     yield page
     page.close()

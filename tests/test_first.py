@@ -10,7 +10,7 @@ from urllib.parse import urljoin
 import numpy as np
 import pytest
 from lab_page import DRAWN, TIME, TOPS, come
-from visiting import PATIENCE
+from watching import LOST
 
 from app.page import first
 from app.state.keep import read
@@ -68,9 +68,9 @@ def test_what_must_arrive_before_the_first_frame_is_small(server):
 
 
 @pytest.mark.served
-def test_it_moves_without_bokeh_and_a_session(server, chromium):
+def test_it_moves_without_bokeh_and_a_session(server, chromium, page_errors):
+    page_errors.allow(f"{LOST}|Bokeh|Panel")
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
-    page.set_default_timeout(PATIENCE)
     page.route("**/bokeh*.js*", lambda route: route.abort())
     page.goto(f"{server}?")
     page.wait_for_function(f"{DRAWN} && {TIME} > 2")
@@ -83,7 +83,6 @@ def test_it_moves_without_bokeh_and_a_session(server, chromium):
 @pytest.mark.served
 def test_bokeh_is_asked_for_after_it_and_no_font_at_all(server, chromium):
     page, order = chromium.new_page(viewport={"width": 1400, "height": 900}), []
-    page.set_default_timeout(PATIENCE)
     page.on("request", lambda request: order.append(("asked", request.resource_type, request.url)))
     page.on("requestfinished", lambda request: order.append(("came", request.resource_type, request.url)))
     page.goto(f"{server}?")
@@ -104,9 +103,9 @@ def test_bokeh_is_asked_for_after_it_and_no_font_at_all(server, chromium):
 
 @pytest.mark.served
 @pytest.mark.parametrize("lost", ["arrival.gz", "static/tippe.js"])
-def test_the_rest_comes_even_where_it_does_not(server, chromium, lost):
+def test_the_rest_comes_even_where_it_does_not(server, chromium, lost, page_errors):
+    page_errors.allow(f"{LOST}|Failed to fetch")
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
-    page.set_default_timeout(PATIENCE)
     page.route(f"**/*{lost}*", lambda route: route.abort())
     page.goto(f"{server}?")
     page.wait_for_function("window.Bokeh?.documents?.length")
@@ -119,7 +118,6 @@ def waiting(server, chromium):
     """A page whose session has not arrived, and a function that lets it arrive."""
     context = chromium.new_context(viewport={"width": 1400, "height": 900})
     page, held = context.new_page(), []
-    page.set_default_timeout(PATIENCE)
     page.route("**/panel.min.js*", lambda route: held.append(route))
     page.goto(f"{server}?", wait_until="commit")
     page.wait_for_function(f"{DRAWN} && {TIME} > 2")

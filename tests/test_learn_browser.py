@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import expect
 from serving import served
 from visiting import Visit
+from watching import LOST
 
 from app.model.explorer import Explorer
 from app.model.lesson import lesson, parts
@@ -20,9 +21,9 @@ from app.text import listed, say, speaking
 pytestmark = pytest.mark.served
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def browser(chromium):
-    """A browser context that pages share, with reduced motion, because drawing by software slows everything."""
+    """A browser context with reduced motion, because drawing by software slows everything."""
     context = chromium.new_context(reduced_motion="reduce")
     yield context
     context.close()
@@ -35,9 +36,7 @@ def opened(browser, address, width=1400, height=900):
 
 
 def closed(visit):
-    """Closes the page, which must have had no error."""
     visit.page.close()
-    assert not visit.errors
 
 
 def told(step, language):
@@ -260,8 +259,9 @@ def test_a_class_with_two_phones(browser, phones, server):
         closed(each)
 
 
-def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path):
+def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path, page_errors):
     """Everything is in the page already; it says that the votes wait, and does not reload."""
+    page_errors.allow(LOST)
     with ExitStack() as network, served(tmp_path / "log", votes=tmp_path / "votes"):
         own = network.enter_context(served(tmp_path / "own", votes=tmp_path / "votes"))
         page = opened(browser, f"{own.url}?tab=learn", 1400, 900).page

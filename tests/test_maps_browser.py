@@ -21,16 +21,15 @@ BEAD = """() => {
 }"""
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def page(server, chromium):
-    page = chromium.new_page(viewport={"width": 1400, "height": 1000})
-    visit = Visit(page, f"{server}?v=1&tab=maps&map=spin_5_50_tilt_1_40_contensou_10_6_9", whole=False)
+    page = chromium.new_page(viewport={"width": 1400, "height": 1000}, reduced_motion="reduce")
+    Visit(page, f"{server}?v=1&tab=maps&map=spin_5_50_tilt_1_40_contensou_10_6_9", whole=False)
     page.get_by_role("status").filter(has_text="28.6 rev/s, 5.7").wait_for()
     page.wait_for_function(f"() => ({SIDE})() == 9")
     page.get_by_role("button", name="Stop").and_(page.locator(":disabled")).wait_for()
     yield page
     page.close()
-    assert not visit.errors
 
 
 def enter(page, label, text):
@@ -133,9 +132,10 @@ AT_REST = f"""(point) => new Promise((resolve) => {{
 
 def test_a_finger_moves_the_bead_and_scrolls_elsewhere(server, chromium):
     """A swipe that scrolls the page does not look closer as well, but the button does."""
-    phone = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    phone = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True,
+                                 reduced_motion="reduce")  # fmt: skip
     page = phone.new_page()
-    visit = Visit(page, f"{server}?v=1&tab=maps&map=spin_5_50_tilt_1_40_contensou_2_6_9", whole=False)
+    Visit(page, f"{server}?v=1&tab=maps&map=spin_5_50_tilt_1_40_contensou_2_6_9", whole=False)
     page.get_by_role("status").filter(has_text="28.6 rev/s, 5.7").wait_for()
     page.wait_for_function(f"() => ({SIDE})() == 9")
     before = page.evaluate(RANGE)
@@ -152,7 +152,6 @@ def test_a_finger_moves_the_bead_and_scrolls_elsewhere(server, chromium):
     page.get_by_role("button", name="Look closer here").tap()
     wait(page, lambda: abs(page.evaluate(RANGE)[1] - page.evaluate(RANGE)[0] - 15) < 1e-3)  # rounded as an entry is
     phone.close()
-    assert not visit.errors
 
 
 def test_it_fits_a_phone(page):

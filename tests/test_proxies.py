@@ -15,6 +15,7 @@ from openid import SECRET, provider
 from serving import listens, served, until
 from test_faults import has_come_back, set_K_J
 from visiting import Visit, free_port
+from watching import LOST
 
 pytestmark = [pytest.mark.served, pytest.mark.slow]
 DEPLOY = Path(__file__).parent.parent / "deploy"
@@ -94,7 +95,8 @@ def proxied(name, folder, behind, login=None):
 
 
 @pytest.fixture
-def page(chromium):
+def page(chromium, page_errors):
+    page_errors.allow(LOST)
     context = chromium.new_context(viewport={"width": 1400, "height": 900}, ignore_https_errors=True)
     yield context.new_page()
     context.close()
@@ -151,7 +153,7 @@ def signs_in(page, root):
     """Opens the page through the login, and moves K_J."""
     page.goto(f"{root}/tops/app?tab=roll")
     page.get_by_text("Sign in").click()
-    page.wait_for_function("window.__tippe?.top3d?.pictures > 2", timeout=60_000)
+    page.wait_for_function("window.__tippe?.top3d?.pictures > 2")
     set_K_J(page, "6.5")
 
 
@@ -159,7 +161,7 @@ def loses(page, server):
     """The server goes, and the page is loaded again."""
     page.evaluate("window.mark = 1")
     server.process.kill()
-    page.get_by_text("Sign in").wait_for(timeout=60_000)  # the login answers, so the page loads
+    page.get_by_text("Sign in").wait_for()  # the login answers, so the page loads
 
 
 def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(page, tmp_path):
@@ -175,7 +177,7 @@ def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(
                 Login.good.clear()
                 loses(page, server)
             with served(tmp_path / "again", **settings):
-                page.get_by_text("Sign in").click(timeout=60_000)
+                page.get_by_text("Sign in").click()
                 has_come_back(page, "6.5")
     finally:
         login.shutdown()
@@ -196,5 +198,5 @@ def test_a_login_of_apache_that_ran_out_is_asked_for_again_and_leads_back_to_wha
             set_K_J(page, "6.6")  # an open page stays open
             loses(page, server)
         with served(tmp_path / "again", **settings):
-            page.get_by_text("Sign in").click(timeout=60_000)
+            page.get_by_text("Sign in").click()
             has_come_back(page, "6.6")

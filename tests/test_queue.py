@@ -7,14 +7,13 @@ from queue import Queue
 import pytest
 import visitors
 from inside import inside
+from patience import PATIENCE
 from serving import until
 from wire import run as run_async
 
 from app.model import cores, runs
 from app.model.runs import WORK, Full, Pool, Run, Runs, Stopped
 from app.text import LANGUAGES, say
-
-PATIENCE = 60  # s
 
 
 @pytest.fixture(autouse=True)

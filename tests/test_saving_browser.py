@@ -21,13 +21,12 @@ TABLES = {"Ordinary": "ordinary", "Rough": "rough", "Ice": "ice"}
 ROOT = Path(__file__).parent.parent
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def page(server, chromium):
-    visit = come(chromium.new_page(viewport={"width": 1400, "height": 900}), f"{server}?v=2&tab=lab&table=ordinary")
-    pause(visit.page)
-    yield visit.page
-    visit.page.close()
-    assert not visit.errors
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
+        page = come(context.new_page(), f"{server}?v=2&tab=lab&table=ordinary").page
+        pause(page)
+        yield page
 
 
 def choose(page, table):
@@ -53,21 +52,15 @@ def read(csv):
     return pd.read_csv(io.BytesIO(csv), comment="#")
 
 
-@pytest.fixture(scope="module")
-def runs():
-    """{table: its CSV as read by pandas}, of the saved files."""
-    return {}
-
-
 @pytest.mark.parametrize("label, table", TABLES.items())
-def test_each_file_of_a_tables_run_is_that_run(page, runs, label, table, tmp_path):
+def test_each_file_of_a_tables_run_is_that_run(page, label, table, tmp_path):
     choose(page, label)
     share(page)
     page.get_by_text(f"This motion, {table}").locator("visible=true").wait_for()
     name = f"tippe-top-{table}"
 
     csv = saved(page, "CSV", f"{name}.csv")
-    run = runs[table] = read(csv)
+    run = read(csv)
     link = page.locator("input[readonly]").locator("visible=true").input_value()
     assert f"# table = {table}\n" in csv.decode() and f"# {link}\n" in csv.decode()
     assert not run.isna().any(axis=None) and run["t"].iloc[-1] == pytest.approx(12 if table == "ordinary" else 6)
@@ -109,11 +102,17 @@ def test_each_file_of_a_tables_run_is_that_run(page, runs, label, table, tmp_pat
     assert np.allclose(theta[rows[:200]], run["theta"][:200], atol=1e-6)
 
 
-def test_of_all_three_each_is_saved_as_alone(page, runs):
+def test_of_all_three_each_is_saved_as_alone(page):
+    alone = {}
+    for label, table in TABLES.items():
+        choose(page, label)
+        share(page)
+        page.get_by_text(f"This motion, {table}").locator("visible=true").wait_for()
+        alone[table] = read(saved(page, "CSV", f"tippe-top-{table}.csv"))
     choose(page, "All three")
     share(page)
     for table in TABLES.values():
         page.get_by_role("button", name="ice" if table == "ice" else f"{table} table", exact=True).click()
         page.get_by_text(f"This motion, {table}").locator("visible=true").wait_for()
         run = read(saved(page, "CSV", f"tippe-top-{table}.csv"))
-        assert np.allclose(run["theta"][:400], runs[table]["theta"][:400], atol=1e-9)
+        assert np.allclose(run["theta"][:400], alone[table]["theta"][:400], atol=1e-9)

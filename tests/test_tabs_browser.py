@@ -122,6 +122,7 @@ def test_a_tab_that_cannot_be_made_says_so_costs_nothing_and_can_be_opened_again
         assert set(before) <= set(page.evaluate(URLS))
         assert elsewhere(visit, server) == []
         assert all(server.log.count(f"RuntimeError: made to fail in {where}") == 1 for where in FAILURES)
+        page.close()  # before its server goes
 
 
 def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromium, page, tmp_path):

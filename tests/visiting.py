@@ -4,8 +4,9 @@ import shutil
 import socket
 
 import numpy as np
+import patience
 
-PATIENCE = 60_000  # ms: software drawing on a busy machine
+PATIENCE = 1000 * patience.PATIENCE  # ms
 FLAGS = [
     "--no-sandbox",
     "--disable-quic",
@@ -119,11 +120,7 @@ def launch(playwright):
 
 def wait(page, ready):
     """Waits for a condition that cannot be written as one JavaScript expression."""
-    for _ in range(800):
-        if ready():
-            return
-        page.wait_for_timeout(25)
-    raise AssertionError("waited too long")
+    return patience.poll(ready, lambda: page.wait_for_timeout(25))
 
 
 class Visit:
