@@ -23,7 +23,7 @@ class Columns:
     def __init__(self, changed, wrong):
         self._changed, self._wrong, self._table, self._errors = changed, wrong, None, ()
         self.rate, self._of_rate = None, pn.Column(sizing_mode="stretch_width", margin=0)
-        self.view = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.view = pn.Column(sizing_mode="stretch_width", margin=(8, 0))
 
     @property
     def frames_a_second(self):
