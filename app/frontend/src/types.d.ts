@@ -53,6 +53,7 @@ interface TopModel extends Model, Record<Shown, boolean> {
   tilted: [theta: number, t: number, grasp: number] | [];
   playing: boolean;
   speed: number;
+  until?: number; // the motion is played once, to this time; else it repeats
   camera: number[];
   measured?: Bytes;
   measured_label?: string;

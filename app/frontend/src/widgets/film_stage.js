@@ -23,7 +23,7 @@ export function renderFilmStage({ model, el, view }) {
   view.tippe?.dispose();
   const { texts, clock } = model;
   el.innerHTML = STYLE;
-  const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, pace: PACE }) });
+  const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
   Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
   const pill = part("div", { class: "pill", hidden: true }), shape = drawn("path", { d: PLAY, fill: "currentColor" });
   const none = part("p", { class: "none" }, model.none);
