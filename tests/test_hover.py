@@ -1,4 +1,4 @@
-"""What Fig. 6 says of the place under the pointer, with the numbers that the page gets, against tippe_core's tielines."""
+"""What Fig. 6 says of the place under the pointer, from the numbers that a page gets, against tippe_core's tielines."""
 
 import json
 import subprocess
@@ -20,7 +20,8 @@ import {{ readFileSync }} from "node:fs";
 import {{ readPlane, valueIn }} from {json.dumps((SOURCES / "figures" / "plane.js").as_uri())};
 const {{ limits, field, words, places }} = JSON.parse(readFileSync(0, "utf8"));
 const values = Object.assign(Float32Array.from(field.E), {{ shape: field.shape }});
-console.log(JSON.stringify(places.map(([x, y]) => readPlane(limits, words, {{ x, y, E: valueIn(field, values, [x, y]), ratio: 0 }}))));
+const read = ([x, y]) => readPlane(limits, words, {{ x, y, E: valueIn(field, values, [x, y]), ratio: 0 }});
+console.log(JSON.stringify(places.map(read)));
 """
 TOPS = {
     "the paper's": {},
@@ -70,8 +71,9 @@ def test_a_place_on_a_tieline_rolls_and_one_beyond_it_does_not(inputs):
         right += [limited[by] for theta in on if theta < end]
         if by not in ("slip", "lift-off"):
             continue
-        for a, b, why in ((lift.theta_inner[row], inner, "not_slip"), (outer, lift.theta_outer[row], "not_slip"),
-                          (0, lift.theta_inner[row], "not_lift"), (lift.theta_outer[row], np.pi, "not_lift")):  # fmt: skip
+        low, high = lift.theta_inner[row], lift.theta_outer[row]
+        for a, b, why in ((low, inner, "not_slip"), (outer, high, "not_slip"), (0, low, "not_lift"),
+                          (high, np.pi, "not_lift")):  # fmt: skip
             beyond = [theta for theta in a + (b - a) * np.array([0.01, 0.3, 0.5, 0.99]) if b - a > 1e-6 and theta < end]
             places += [(theta, value) for theta in beyond]
             right += [why] * len(beyond)

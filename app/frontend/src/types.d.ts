@@ -137,6 +137,7 @@ interface FilmStageModel extends Model {
   measured_label: string;
   a: number | null;
   start: number;
+  anew: boolean;
 }
 
 interface MeasuredFileModel extends Model {
@@ -232,7 +233,7 @@ type PixelScale = { compute(value: number): number; invert(px: number): number }
 type Tieline = { K_J: number; inner: number; outer: number };
 
 // app/tabs/lab/lab.py says what each contains.
-type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves" | "keeps"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
   a: number;
   seconds: number;
   asked: [count: number, name: string, value: any] | [];

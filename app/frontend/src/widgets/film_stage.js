@@ -4,6 +4,7 @@ import { Top } from "../lab/top.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { colours } from "../colours.js";
 import { coalesce, float32 } from "../data.js";
+import { seek } from "../figures/seeking.js";
 
 const PACE = 1 / 8; // in units of the real top's speed
 const STYLE = `<style>
@@ -37,7 +38,7 @@ export function renderFilmStage({ model, el, view }) {
     shape.setAttribute("d", playing ? PAUSE : PLAY);
     play.setAttribute("aria-label", playing ? texts.pause : texts.play);
   }
-  let tilts = new Float32Array();
+  let tilts = new Float32Array(), shown = model.frames;
   const hear = ({ detail: { t, index, playing } }) => {
     if (playing !== top.model.playing) put({ playing });
     const tilt = tilts[Math.min(index, tilts.length - 1)];
@@ -49,6 +50,8 @@ export function renderFilmStage({ model, el, view }) {
     pill.hidden = play.hidden = !some;
     none.hidden = some;
     put({ profile: model.profile, a: model.a, measured_label: model.measured_label, measured: model.measured, frames: model.frames });
+    if (model.anew && shown !== model.frames) seek(model.start, false, clock);
+    shown = model.frames;
     if (some && !top.begun) {
       top.model.time = model.start;
       top.begin();
