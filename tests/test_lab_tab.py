@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from app.model.arrival import TILT
@@ -114,7 +115,11 @@ def test_another_table_has_its_own_motion_and_the_same_start(tab):
     state = wish(tab, 2, "table", "three")
     assert state["table"] == "three" and state["values"] == before
     assert all(getattr(tab.view, f"curves_{table}") for table in ("ordinary", "rough", "ice"))
-    assert {len(run["keeps"]) for run in state["runs"].values()} == {4}
+    for table in ("ordinary", "rough", "ice"):
+        rows = np.frombuffer(getattr(tab.view, f"keeps_{table}"), np.float32).reshape(-1, 13)
+        assert rows[0, 0] == 0 and np.isfinite(rows).all()
+    wish(tab, 3, "table", "ice")
+    assert not tab.view.keeps_ice
 
 
 def test_the_papers_figures_are_asked_for(tab):

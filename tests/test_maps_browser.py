@@ -1,5 +1,6 @@
 """The tab Maps in Chromium: the map appears, a click and a drag lead to runs, impossible requests change nothing."""
 
+import math
 import re
 
 import pytest
@@ -55,6 +56,22 @@ def test_a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
     wait(page, lambda: re.match(r"6\.\d+ rev/s, 17", said(page)))
     entry = page.get_by_label("The run at, Across", exact=True)
     wait(page, lambda: entry.input_value().startswith("6."))
+
+
+def test_the_top_beside_is_at_the_start_of_the_run_that_was_clicked(page):
+    """Also without playing it, and after the one before has been played."""
+    pill, play = page.locator(".film .pill"), page.locator(".film button")
+    for tilt in (25, 10):
+        page.mouse.click(*page.evaluate(PIXEL, ["maps", 44.0, tilt]))
+        wait(page, lambda: page.evaluate(BEAD)[0] == 42.5)
+        middle = 1 + 39 * (int((tilt - 1) / 39 * 9) + 0.5) / 9  # of its cell
+        page.get_by_text(f"0.00 s · {middle:.0f}°", exact=True).wait_for()
+        x, y, *_ = page.evaluate("__tippe.tops('map')[0].quaternion")
+        assert math.degrees(math.acos(1 - 2 * (x * x + y * y))) == pytest.approx(middle, abs=1e-3)
+        play.click()
+        page.wait_for_function("__tippe.time('map') > 0.05")
+        play.click()
+        wait(page, lambda: not pill.inner_text().startswith("0.00 s"))
 
 
 def test_arrow_keys_move_the_bead_and_the_top_beside_is_that_of_its_run(page):

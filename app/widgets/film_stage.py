@@ -24,6 +24,7 @@ class FilmStage(Bundled):
     measured_label = param.String(default="")
     a = param.Number(default=None, doc="G's distance below O, in R")
     start = param.Number(default=0.0, doc="s, the first time of the clock")
+    anew = param.Boolean(False, constant=True, doc="Whether the time of a new motion is the start.")
 
 
 def clear_motion(stage):

@@ -29,7 +29,6 @@ class PlaneFigure:
                 "lift_verge",
                 "steady",
                 "slip_E",
-                "lift_E",
                 "slip_by",
                 "lift_by",
             )
@@ -123,7 +122,6 @@ class PlaneFigure:
             "lift_verge": lift.theta_verge,
             "steady": lift.theta_steady,
             "slip_E": slip.E,
-            "lift_E": lift.E,
             "slip_by": list(slip.limited_by),
             "lift_by": list(lift.limited_by),
         }

@@ -43,6 +43,6 @@ STYLE = [
 ]
 HEADLESS = [
     ".MuiAppBar-root, main .MuiToolbar-root { display: none !important }",  # the page has its own head
-    # on a phone the tabs are at the foot
-    "@media (max-width: 700px) { .main-content { padding-bottom: calc(53px + env(safe-area-inset-bottom)) } }",
+    # on a phone the tabs are at the foot; what scrolls ends above them, because a padding is not below what overflows
+    "@media (max-width: 700px) { .main-content { margin-bottom: calc(53px + env(safe-area-inset-bottom)) } }",
 ]

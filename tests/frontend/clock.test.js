@@ -80,6 +80,19 @@ test("each moment is announced once, by the top that moves the time; a seek move
     window.removeEventListener("tippe:clock:a", listen);
   }));
 
+test("a new motion is announced although its moment is the same", () =>
+  together([topOn("a")], ({ place, model }) => {
+    const heard = [], listen = ({ detail }) => heard.push(detail.t);
+    window.addEventListener("tippe:clock:a", listen);
+    place.say("rolls");
+    place.say("rolls");
+    model.frames = motion([0, 3].map((t) => ({ t })));
+    place.take();
+    place.say("rolls");
+    assert.deepEqual(heard, [0, 0]);
+    window.removeEventListener("tippe:clock:a", listen);
+  }));
+
 test("the keys of the page reach the visible top", () =>
   together([topOn("", { wide: 0 }), topOn("")], (hidden, { player }) => {
     const command = (detail) => window.dispatchEvent(new CustomEvent("tippe:command", { detail }));

@@ -3,6 +3,7 @@ import { test } from "node:test";
 import { trackOf } from "../../app/frontend/src/lab/answer.js";
 import { Asking } from "../../app/frontend/src/lab/asking.js";
 import { Before } from "../../app/frontend/src/lab/before.js";
+import { keptAt } from "../../app/frontend/src/lab/keeps.js";
 import { strengthOf } from "../../app/frontend/src/lab/launch.js";
 import { Curves, latest, placed, tempo, ticks, TILT } from "../../app/frontend/src/lab/curves.js";
 import { read, say, written } from "../../app/frontend/src/lab/parts.js";
@@ -149,4 +150,18 @@ test("one press makes one change, however long it lasts; the next press makes an
 
 test("a press has no strength, a longer hold has more, up to the greatest", () => {
   assert.deepEqual([0, 299, 300, 1300, 2300, 9000].map(strengthOf), [null, null, 0, 0.5, 1, 1]);
+});
+
+test("what is conserved is told to the present moment, with as many digits as tell two numbers apart", () => {
+  const keep = { kept: "kept", swings: "swings", nearly: "nearly", zero: "zero", lost: "lost", heat: "heat", reversed: "reversed", one: "{first}{unit}", two: "{first} → {last}{unit}", range: "{first} – {last}{unit}", units: [" mm", "", "", " rev/s"] };
+  const texts = { decimal: ",", keep }, rows = new Float32Array([
+    0, 0, 205, 205, 0, 4.9, 4.9, 0, 7.32, 7.32, 0, 28.6, 28.6,
+    1.3, 4, 205, 103, 2, 4.9, 4.84, 3, 7.32, -4.5, 3, 28.6, -14,
+    6, 4, 205, 21, 4, 4.9, 1.06, 1, 7.31, 7.3134, 0, 28.6, 28.6,
+  ]);
+  const said = (t) => keptAt(rows, t, texts).map(([, ...words]) => words.join(" "));
+  assert.deepEqual(said(1.29), ["kept 205 mm", "kept 4,90", "kept 7,32", "kept 28,6 rev/s"]);
+  for (const t of [1.3, 5.99]) assert.deepEqual(said(t), ["heat 205 → 103 mm", "nearly 4,90 → 4,84", "zero 7,32 → −4,50", "reversed 28,6 → −14,0 rev/s"]);
+  assert.deepEqual(said(6), ["heat 205 → 21 mm", "lost 4,90 → 1,06", "swings 7,310 – 7,313", "kept 28,6 rev/s"]);
+  assert.deepEqual(keptAt(rows.subarray(0, 13), 0, texts).map(([kind]) => kind), ["kept", "kept", "kept", "kept"]);
 });

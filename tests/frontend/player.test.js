@@ -4,8 +4,8 @@ import { Player } from "../../app/frontend/src/motion/player.js";
 import { motion, near } from "./helping.js";
 
 function playerOf(...times) {
-  const heard = { changed: 0, landed: 0, playingChanged: 0 };
-  const player = new Player(Object.fromEntries(Object.keys(heard).map((name) => [name, () => (heard[name] += 1)])));
+  const heard = { changed: 0, landed: 0, playingChanged: 0 }, tell = Object.fromEntries(Object.keys(heard).map((name) => [name, () => (heard[name] += 1)]));
+  const player = new Player(/** @type {any} */ (tell));
   player.setFrames(motion(times.map((t) => ({ t }))));
   return { player, heard };
 }
@@ -83,6 +83,57 @@ test("a new motion keeps the time, and one that follows another player takes its
   player.setFrames(motion([0, 5].map((t) => ({ t }))));
   assert.equal(player.t, 0.5);
   assert.deepEqual([player.follow(3), player.t, player.follow(2), player.t], [false, 3, true, 2]);
+});
+
+// Played once, to a time that rounding has put a little beyond the last row, as seconds of the page are.
+function oncePlayed(until, ...times) {
+  const { player, heard } = playerOf(...times);
+  player.until = () => until;
+  return { player, heard };
+}
+
+test("a motion that is played once pauses at its end, by itself and wherever a person lets go of it", () => {
+  const { player, heard } = oncePlayed(5 * (1 + 1e-7), 1, 2, 5);
+  player.seek(4);
+  player.setPlaying(true);
+  assert.deepEqual([player.t, player.playing], [1, true]); // 5 is the nearest row, and there it starts again
+  for (const now of [1000, 1200, 1400]) assert.equal(player.advance(now, 0.01), false);
+  assert.deepEqual([player.t, player.playing], [5, false]);
+  for (const [beyond, way] of [[5 * (1 + 1e-7), "the key End"], [9, "a pointer beyond the edge"]]) {
+    player.setPlaying(true);
+    assert.deepEqual([player.t, player.playing], [1, true], way);
+    player.seek(beyond, true);
+    assert.deepEqual([player.t, player.playing], [5, true], way); // while it is held
+    assert.equal(player.advance(5000, 0.01), false);
+    player.seek(beyond);
+    assert.deepEqual([player.t, player.playing], [5, false], way);
+  }
+  player.setPlaying(true);
+  player.seek(3);
+  assert.deepEqual([player.t, player.playing], [3, true]);
+  assert.equal(heard.playingChanged, 7);
+});
+
+test("it ends where its part ends, and a new motion that is over by then starts at its beginning", () => {
+  const rows = Array.from({ length: 2001 }, (_, i) => i / 200), { player } = oncePlayed(4, ...rows);
+  player.setPlaying(true);
+  player.seek(3.9);
+  for (const now of [0, 200]) player.advance(now, 0.001);
+  assert.deepEqual([player.t, player.playing], [4, false]);
+  player.until = () => Infinity;
+  player.setPlaying(true);
+  assert.equal(player.t, 4);
+  player.setFrames(motion([0, 1, 3].map((t) => ({ t }))));
+  assert.deepEqual([player.t, player.playing], [0, true]);
+});
+
+test("a top that follows another one does not stop it when its own motion is over", () => {
+  const { player } = oncePlayed(5, 1, 2, 5);
+  player.setPlaying(true);
+  player.advance(0, 0);
+  player.follow(8);
+  player.advance(100, 0);
+  assert.deepEqual([player.t, player.playing], [5, true]);
 });
 
 test("everything works without a motion", () => {

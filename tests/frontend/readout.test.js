@@ -31,9 +31,14 @@ test("a place has the value of its cell, and beyond the picture that of the near
   assert.equal(valueIn(frame, values, [9, -7]), 3);
 });
 
-test("the text for a place names the limit that it keeps or exceeds", () => {
-  const limits = { K_J: [0, 1], slip_E: [2, 3], lift_E: [4, 5], slip_by: ["slip", "slip"], lift_by: ["lift-off", "lift-off"] };
-  const words = { place: "{K_J} {verdict} {ratio}", then_slip: "rolls", not_slip: "slips", not_lift: "lifts", no_contact: "none" };
-  const read = (E) => readPlane(limits, words, { x: 1, y: 0.9, E, ratio: Infinity });
-  assert.deepEqual([3, 4, 6].map(read), ["1.000 rolls none", "1.000 slips none", "1.000 lifts none"]);
+test("the text for a place names the limit that it keeps or exceeds, whatever the rounded energy of the field", () => {
+  const limits = {
+    K_J: [0, 1], slip_in: [NaN, 0.3], slip_out: [NaN, 0.6], lift_in: [0, 0.1], lift_out: [3, 0.9], slip_E: [NaN, 3.1],
+    slip_by: ["no motion", "slip"], lift_by: ["lift-off", "lift-off"],
+  };
+  const words = { place: "{K_J} {verdict} {E}", then_slip: "rolls", not_slip: "slips", not_lift: "lifts", steady_cannot: "never" };
+  const read = (x, y = 0.9) => [3.0999, 3.1001].map((E) => readPlane(limits, words, { x, y, E, ratio: Infinity }).split(" ")[1]).join(" ");
+  assert.deepEqual([0.05, 0.2, 0.301, 0.599, 0.7, 1].map((x) => read(x)), ["lifts lifts", "slips slips", "rolls rolls", "rolls rolls", "slips slips", "lifts lifts"]);
+  assert.equal(read(0.5, 0.1), "never never");
+  assert.equal(readPlane(limits, words, { x: 0.4, y: 1, E: Math.fround(3.1), ratio: 0 }), "1.000 rolls 3.1000");
 });

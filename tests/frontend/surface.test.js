@@ -30,6 +30,12 @@ test("a ray from above finds the nearest point of the surface", () => {
   assert.deepEqual([from(0.1, 0.9), from(0.9, 0.9), from(0.9, 1.8), from(5, 5)].map((ray) => mesh.nearest(ray)), [2, 3, 5, null]);
 });
 
+test("a place on the floor belongs to the tieline it is on, and elsewhere to none", () => {
+  const one = grid([0, 0, 1, 1, 0, 0]);
+  assert.deepEqual([[0.1, 0.9], [0.9, 0.4], [1, 1.8], [1.01, 1], [-0.1, 1]].map((/** @type {[number, number]} */ place) => one.on(place)), [2, 1, 5, null, null]);
+  assert.equal(new Grid({ ...one, theta: new Float32Array(6).fill(NaN) }).on([0.5, 1]), null);
+});
+
 test("near an end the pointer grabs the end rather than the line, and far away neither", () => {
   assert.equal(gripBetween([10, 0], [200, 0]), "end");
   assert.equal(gripBetween([-90, 3], [110, 3]), "line");

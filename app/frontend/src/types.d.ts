@@ -53,6 +53,7 @@ interface TopModel extends Model, Record<Shown, boolean> {
   tilted: [theta: number, t: number, grasp: number] | [];
   playing: boolean;
   speed: number;
+  until?: number; // the motion is played once, to this time; else it repeats
   camera: number[];
   measured?: Bytes;
   measured_label?: string;
@@ -136,6 +137,7 @@ interface FilmStageModel extends Model {
   measured_label: string;
   a: number | null;
   start: number;
+  anew: boolean;
 }
 
 interface MeasuredFileModel extends Model {
@@ -231,7 +233,7 @@ type PixelScale = { compute(value: number): number; invert(px: number): number }
 type Tieline = { K_J: number; inner: number; outer: number };
 
 // app/tabs/lab/lab.py says what each contains.
-type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves" | "keeps"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
   a: number;
   seconds: number;
   asked: [count: number, name: string, value: any] | [];

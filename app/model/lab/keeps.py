@@ -1,65 +1,57 @@
-"""What a motion conserves from its start to its end: energy, Jellett's and Routh's constants, spin, in words and
-numbers."""
-
-from typing import NamedTuple
+"""What a motion conserves from its start until each later moment: energy, Jellett's and Routh's constants, spin."""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from app.model.lab.run import TableMotion
-from app.text import say
+from app.model.lab.run import STEP, TableMotion
 from tippe_core.types import Array
 
-ROUNDING, NEARLY, TURNED = 1e-6, 0.25, 0.05  # relative to the largest value
+KINDS = ("kept", "swings", "nearly", "zero", "lost")
+"""How far a quantity is conserved; zero: its sign has changed."""
+ROUNDING, TURNED = 1e-6, 0.05  # relative to the largest value so far
+# Less than a quarter has gone; the page says so. Rubbing while a toy turns over takes one or two hundredths of
+# Jellett's constant, but half of the energy, and turns Routh's around; later pivoting on the stem uses up Jellett's.
+NEARLY = 0.25
 TREND = 0.2  # relative to the range of the values
-DIGITS = 5  # decimals, at most
 
 
-class Row(NamedTuple):
-    """One quantity: its name, how far it is conserved ("full", "half" or "empty"), the same in a word, and the
-    numbers."""
-
-    name: str
-    mark: str
-    word: str
-    text: str
-
-
-def keeps(motion: TableMotion) -> tuple[Row, ...]:
-    """The Rows of a motion from its start to its end; the start is before the rough table grips it, except for the
-    energy."""
-    moved, curves, top = motion.trajectory, motion.curves, motion.start.top
-    return (
-        _row("energy", curves[:, 3].astype(float), 0, say("lab.keeps.millimetres")),
-        _row("jellett", moved.jellett / top.I1, 2, ""),
-        _row("routh", moved.routh, 2, ""),
-        _row("spin", curves[:, 5].astype(float), 1, say("lab.keeps.turns")),
-    )
+def keeps(motion: TableMotion) -> Array:
+    """Rows (n, 13) over a motion: t (s), and for the energy (mm), Jellett's constant (divided by I1), Routh's and the
+    spin (rev/s) how far it is conserved from the start until then, an index of KINDS, and two numbers: the first and
+    the present one, or the least and the largest so far if it swings. On the rough table the start is after the
+    grip."""
+    moved, scales = motion.trajectory, motion.start.scales
+    energy = 1e3 * scales.R * (moved.ledger.kinetic + moved.com[:, 2])
+    turns = scales.angular_velocity / (2 * np.pi) * moved.omega[:, 2]
+    # friction can only take energy, so whatever is gone is heat, however little
+    found = _told(energy, 0.0), _told(moved.jellett / motion.start.top.I1), _told(moved.routh), _told(turns)
+    rows = np.column_stack([motion.seconds, *found])
+    return rows[np.unique(np.append(np.arange(0, len(rows), STEP), len(rows) - 1))]
 
 
-def kind_of(values: Array) -> tuple[str, str]:
-    """How far it is conserved, and the key of its word: "kept", "swings", "nearly", "zero" (its sign has changed) or
-    "lost"."""
-    most, spread = float(np.abs(values).max()), float(np.ptp(values))
-    first, last = values[0], values[-1]
-    if spread <= ROUNDING * most:
-        return "full", "kept"
-    if abs(last) > TURNED * most and first * last < 0:
-        return "empty", "zero"
-    early, late = (float(half.mean()) for half in np.array_split(values, 2))
-    if abs(late - early) < TREND * spread and spread < NEARLY * most:
-        return "half", "swings"
-    return ("half", "nearly") if abs(last - first) < NEARLY * most else ("empty", "lost")
+def kinds(values: Array, nearly: float = NEARLY) -> NDArray[np.intp]:
+    """How far a quantity is conserved from its first value to each: indices of KINDS. What swings about a mean over the
+    whole motion does so from its start. nearly: the relative change below which it is nearly conserved."""
+    most, spread = np.maximum.accumulate(np.abs(values)), _most(values) - _least(values)
+    found = np.where(np.abs(values - values[0]) < nearly * most, KINDS.index("nearly"), KINDS.index("lost"))
+    found[(np.abs(values) > TURNED * most) & (values * values[0] < 0)] = KINDS.index("zero")
+    early, late = (float(half.mean()) if len(half) else np.inf for half in np.array_split(values, 2))
+    if abs(late - early) < TREND * spread[-1] and spread[-1] < nearly * most[-1]:
+        found[:] = KINDS.index("swings")
+    found[spread <= ROUNDING * most] = KINDS.index("kept")
+    return found
 
 
-def _row(name: str, values: Array, digits: int, unit: str) -> Row:
-    mark, kind = kind_of(values)
-    word = {("energy", "lost"): "heat", ("spin", "zero"): "reversed"}.get((name, kind), kind)
-    ends = values[:1] if kind == "kept" else values[[0, -1]]
-    if kind == "swings":
-        ends = np.array([values.min(), values.max()])
-    while len(ends) == 2 and digits < DIGITS and f"{ends[0]:.{digits}f}" == f"{ends[1]:.{digits}f}":
-        digits += 1
-    said = [f"{value:.{digits}f}".replace("-", "−") for value in ends]
-    form = {1: "one"}.get(len(said), "range" if kind == "swings" else "two")
-    return Row(say(f"lab.keeps.{name}"), mark, say(f"lab.keeps.{word}"),
-               say(f"lab.keeps.{form}", first=said[0], last=said[-1], unit=unit))  # fmt: skip
+def _told(values: Array, nearly: float = NEARLY) -> Array:
+    found = kinds(values, nearly)
+    swings = found == KINDS.index("swings")
+    first, last = np.where(swings, _least(values), values[0]), np.where(swings, _most(values), values)
+    return np.column_stack([found, first, last])
+
+
+def _least(values: Array) -> Array:
+    return np.minimum.accumulate(values)
+
+
+def _most(values: Array) -> Array:
+    return np.maximum.accumulate(values)

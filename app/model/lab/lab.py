@@ -15,7 +15,7 @@ import param
 from app.model.arrival import TABLE, TILT
 from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
 from app.model.lab.ends import Ends, Key, ends_once, known_ends
-from app.model.lab.keeps import Row, keeps
+from app.model.lab.keeps import keeps
 from app.model.lab.life import SECONDS
 from app.model.lab.run import (
     PATCH,
@@ -51,9 +51,9 @@ class LabScene:
 
     motions: {table: TableMotion or None}; None if the table is not watched, or if there is no motion: then refused has
     a sentence that says why. stories: {table: Story} of these motions. said: the headline and the explanation for all
-    three together. keeps: {table: Rows} for all three. messages: {input: a sentence} for each input that was refused;
-    the rest is then the last valid scene. profile: (k, 2) in R; a in R; seconds for one unit of time, for the picture
-    in 3-D; part: "stem" or "rim". whole: whether the motions are computed to their end.
+    three together. keeps: {table: its keeps()} for all three. messages: {input: a sentence} for each input that was
+    refused; the rest is then the last valid scene. profile: (k, 2) in R; a in R; seconds for one unit of time, for the
+    picture in 3-D; part: "stem" or "rim". whole: whether the motions are computed to their end.
     """
 
     table: str
@@ -67,7 +67,7 @@ class LabScene:
     stories: MappingProxyType[str, Story]
     refused: MappingProxyType[str, str]
     said: tuple[str, str]
-    keeps: MappingProxyType[str, tuple[Row, ...]]
+    keeps: MappingProxyType[str, Array]
     profile: Array
     a: float
     seconds: float

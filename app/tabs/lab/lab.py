@@ -60,8 +60,8 @@ class LabView(Bundled):
 
     For each table it has the frames of the motion, as `pack_frames` packs them, and its curves: float32 rows of the
     time (s), the tilt (degrees), the height of G, the energy and the heat so far (as mm of height), the spin about the
-    top's own axis and its rotation seen from above (rev/s), and the code of the regime. Both are empty if there is no
-    such motion.
+    top's own axis and its rotation seen from above (rev/s), and the code of the regime; for all three side by side
+    also what it conserves, float32 rows as of app.model.lab.keeps. All are empty if there is no such motion.
     """
 
     SAYS = ("Stage", "Top3D")
@@ -79,6 +79,9 @@ class LabView(Bundled):
     curves_ordinary = param.Bytes(default=b"")
     curves_rough = param.Bytes(default=b"")
     curves_ice = param.Bytes(default=b"")
+    keeps_ordinary = param.Bytes(default=b"")
+    keeps_rough = param.Bytes(default=b"")
+    keeps_ice = param.Bytes(default=b"")
     asked = param.List(
         default=[], doc="[count, name, value] of a request, the browser writes it; state tells the last "
         "count that was answered. The names are a Lab's inputs; research: the paper's figures; why: the lesson."
@@ -231,6 +234,7 @@ class LabTab:
             for table, motion in scene.motions.items():
                 changes[f"frames_{table}"] = pack_frames(*motion.frames) if motion else b""
                 changes[f"curves_{table}"] = pack(motion.curves) if motion else b""
+                changes[f"keeps_{table}"] = pack(scene.keeps[table]) if table in scene.keeps else b""
         self.view.tell(**changes)
 
     def _state(self, scene):
@@ -302,14 +306,13 @@ class LabTab:
     def _run(scene, table):
         """The run on a table in words; None if the table is not watched."""
         if table in scene.refused:
-            return {"events": [], "stages": [], "keeps": [], "caption": "", "why": spelled(scene.refused[table])}
+            return {"events": [], "stages": [], "caption": "", "why": spelled(scene.refused[table])}
         if table not in scene.stories:
             return None
         story = scene.stories[table]
         return {
             "events": [[t, code, spelled(word), spelled(short)] for t, code, word, short in story.events],
             "stages": [[t, *map(spelled, said)] for t, *said in story.stages],
-            "keeps": [[row.mark, row.word, spelled(row.text)] for row in scene.keeps.get(table, ())],
             "caption": spelled(story.caption),
             "why": "",
         }

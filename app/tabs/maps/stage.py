@@ -9,7 +9,7 @@ CLOCK = "map"
 
 def map_stage():
     """The stage of the tab Maps."""
-    return FilmStage(clock=CLOCK, label=say("maps.stage.label"), none=say("maps.stage.none"),
+    return FilmStage(clock=CLOCK, anew=True, label=say("maps.stage.label"), none=say("maps.stage.none"),
                      sizing_mode="stretch_width", height=260)  # fmt: skip
 
 

@@ -29,6 +29,9 @@ export function gripAt(shown, limits, [px, py], [theta, K_J], { x, y }) {
   if (away(shown.theta) < near) return "bead";
   if (Math.min(away(shown.inner), away(shown.outer)) < near) return "end";
   if (away(clamp(x.invert(px), shown.inner, shown.outer)) < REACH) return "line";
-  const row = nearestRow(limits.K_J, K_J);
-  return theta >= limits.slip_in[row] && theta <= limits.slip_out[row] ? "tieline" : "point";
+  return isOn(limits.slip_in, limits.slip_out, nearestRow(limits.K_J, K_J), theta) ? "tieline" : "point";
 }
+
+// Whether a tilt is on the tieline of a row; false if the row has none.
+/** @param {Column} inner @param {Column} outer @param {number} row @param {number} theta */
+export const isOn = (inner, outer, row, theta) => theta >= inner[row] && theta <= outer[row];

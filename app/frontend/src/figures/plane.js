@@ -4,7 +4,7 @@ import { fill, local } from "../data.js";
 import { timeOf } from "../motion/clock.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
-import { awayFromTieline, gripAt, REACH } from "./grips.js";
+import { awayFromTieline, gripAt, isOn, REACH } from "./grips.js";
 import { hideReadout, showReadout } from "./readout.js";
 import { followClock, gestureOf, isFollowed, seek } from "./seeking.js";
 
@@ -134,14 +134,18 @@ function sayPlace(given) {
   say(given, readPlane(limits.data, words, { x, y, E, ratio }));
 }
 
+// What is at a place, which alone decides the verdict: on a row's tieline the top rolls, with the energy of that row.
+// E: the energy at the place from the field, whose numbers are rounded and whose cells are as wide as a degree.
 /** @param {Record<string, any>} limits @param {Record<string, string>} words @param {Record<"x" | "y" | "E" | "ratio", number>} place */
-export function readPlane({ K_J, slip_E, lift_E, slip_by, lift_by }, words, { x, y, E, ratio }) {
-  const row = nearestRow(K_J, y);
+export function readPlane({ K_J, slip_in, slip_out, lift_in, lift_out, slip_E, slip_by, lift_by }, words, { x, y, E, ratio }) {
+  const row = nearestRow(K_J, y), rolls = isOn(slip_in, slip_out, row, x);
   const limited = { slip: words.then_slip, "lift-off": words.then_lift, "no motion": words.steady_cannot, nothing: words.unlimited };
   const why = { slip: words.not_slip, "lift-off": words.not_lift };
-  const verdict = E > slip_E[row] ? (why[E > lift_E[row] ? lift_by[row] : slip_by[row]] ?? words.not_at_all) : limited[slip_by[row]];
+  const limit = isOn(lift_in, lift_out, row, x) ? slip_by[row] : lift_by[row];
+  const verdict = rolls || !(slip_by[row] in why) ? limited[slip_by[row]] : (why[limit] ?? words.not_at_all);
+  const energy = rolls && Number.isFinite(slip_E[row]) ? slip_E[row] : E;
   return fill(words.place, {
-    K_J: local(K_J[row].toFixed(3)), theta: local(x.toFixed(3)), degrees: local(((x * 180) / Math.PI).toFixed(1)), E: local(E.toFixed(4)),
+    K_J: local(K_J[row].toFixed(3)), theta: local(x.toFixed(3)), degrees: local(((x * 180) / Math.PI).toFixed(1)), E: local(energy.toFixed(4)),
     ratio: Number.isFinite(ratio) ? local(ratio.toFixed(3)) : words.no_contact, verdict,
   });
 }

@@ -36,7 +36,8 @@ export class Answer {
     this.drawing = drawn("svg", { role: "img" });
     this.readout = part("p", { class: "readout", hidden: true, "aria-hidden": "true" });
     this.plot = part("div", { class: "plot", role: "tabpanel" }, this.drawing, this.readout);
-    this.larger = part("button", { type: "button", class: "icon", "aria-label": texts.larger, title: texts.larger, onclick: () => this.enlarge() }, "⤢");
+    this.larger = part("button", { type: "button", class: "icon", onclick: () => this.enlarge() });
+    this.sign(false);
     this.dialog = part("dialog", { class: "large", "aria-label": texts.larger, onclose: () => this.shrink() });
     this.element = part("section", { class: "answer" },
       part("div", { class: "titled" }, this.title, this.choice.element, this.larger), this.note, this.plot);
@@ -46,18 +47,29 @@ export class Answer {
     this.resizing.observe(this.plot);
   }
 
-  // Fills the window; the same button or Escape ends that.
+  // Fills the window; the same button or Escape ends that. All of it moves, so that it looks the same there.
   enlarge() {
     if (this.dialog.open) return this.dialog.close();
-    this.element.after(this.dialog);
-    this.dialog.append(...this.element.children);
+    this.element.replaceWith(this.dialog);
+    this.dialog.append(this.element);
+    this.sign(true);
     this.dialog.showModal();
+    this.larger.focus();
   }
 
   shrink() {
-    this.element.append(...this.dialog.children);
-    this.dialog.remove();
+    this.dialog.replaceWith(this.element);
+    this.sign(false);
     this.larger.focus();
+  }
+
+  // What the button does now.
+  /** @param {boolean} isLarge */
+  sign(isLarge) {
+    const { larger, texts } = this, word = isLarge ? texts.smaller : texts.larger;
+    larger.textContent = isLarge ? "×" : "⤢";
+    larger.title = word;
+    larger.setAttribute("aria-label", word);
   }
 
   // The numbers at the pointer.

@@ -2,6 +2,7 @@
 import { float32, niceAbove } from "../data.js";
 
 const WIDTH = 8;
+export const TABLES = ["ordinary", "rough", "ice"];
 export const TIME = 0, TILT = 1, HEIGHT = 2, ENERGY = 3, HEAT = 4, SPIN = 5, TURNING = 6;
 
 export class Curves {

@@ -4,14 +4,15 @@ import { Answer, trackOf } from "./answer.js";
 import { Asking } from "./asking.js";
 import { Before } from "./before.js";
 import { Controls } from "./controls.js";
-import { Curves } from "./curves.js";
+import { Curves, TABLES } from "./curves.js";
+import { Keeps } from "./keeps.js";
 import { Numbers } from "./numbers.js";
 import { part } from "./parts.js";
-import { Stage, TABLES } from "./stage.js";
+import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
 import { Time } from "./time.js";
-import { Keeps, Words } from "./words.js";
+import { Words } from "./words.js";
 import { coalesce, float32 } from "../data.js";
 import { Press } from "../widgets/press.js";
 
@@ -122,6 +123,7 @@ class Lab {
       state, texts: model.texts, table, curves, runs, run: runs[alone], unit: model.seconds, a: model.a,
       frames: each((name) => model[`frames_${name}`]), profile: float32(model.profile),
       end: Math.max(...Object.values(curves).map(({ end }) => end)), waits: this.waits,
+      keeps: each((name) => model[`keeps_${name}`]),
       track: (name) => trackOf(model[`frames_${name}`], model.seconds),
     };
   }
@@ -151,7 +153,7 @@ class Lab {
 
   at() {
     if (!this.scene) return;
-    for (const shown of [this.stage, this.strip, this.words, this.answer, this.numbers]) shown.at(this.time.t);
+    for (const shown of [this.stage, this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.at(this.time.t);
   }
 
   leave() {
@@ -166,7 +168,7 @@ class Lab {
 export function renderLab({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const lab = new Lab({ model, el, view });
-  for (const name of ["state", "told", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`])]) {
+  for (const name of ["state", "told", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`, `keeps_${table}`])]) {
     model.on(name, lab.show);
   }
   window.addEventListener("tippe:look", lab.look);

@@ -1,7 +1,6 @@
 // The tilt over time, which also controls the time: play, drag anywhere on it, the speed, and back to the start.
-import { latest, placed, ticks, TILT } from "./curves.js";
+import { latest, placed, TABLES, ticks, TILT } from "./curves.js";
 import { drawn, part, say } from "./parts.js";
-import { TABLES } from "./stage.js";
 import { SPEEDS } from "./time.js";
 
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot

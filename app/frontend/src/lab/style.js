@@ -151,23 +151,23 @@ const answer = `
 .answer .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 .spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .energy { stroke: var(--q-energy); stroke-width: 2; }
 svg .washed { stroke: var(--wash); } svg .inside { fill: var(--ground); stroke: var(--lift); }
-:is(.answer, .large) { --wash: var(--q-energy-wash); --lift: var(--q-energy); }
-.lab.old :is(.answer, .large) { --wash: color-mix(in srgb, var(--q-energy-wash) 38%, var(--ground)); --lift: color-mix(in srgb, var(--q-energy) 38%, var(--ground)); }
+.answer { --wash: var(--q-energy-wash); --lift: var(--q-energy); }
+.lab.old .answer { --wash: color-mix(in srgb, var(--q-energy-wash) 38%, var(--ground)); --lift: color-mix(in srgb, var(--q-energy) 38%, var(--ground)); }
 .first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
 .own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
 .readout { position: absolute; background: var(--ground); border: 1px solid var(--line-2); border-radius: 6px; padding: 2px 8px; font-size: var(--t-s); white-space: nowrap; pointer-events: none; font-variant-numeric: tabular-nums; z-index: 1; }
-.titled h2 { flex: 1; } .icon { padding: 0; width: var(--touch); }
+.titled h2 { flex: 1; } .keeps .titled { flex-wrap: wrap; gap: 0 8px; } .keeps h2 { flex: 1 0 auto; } .icon { padding: 0; width: var(--touch); }
 .large { border: 0; padding: 24px; width: calc(100vw - 48px); height: calc(100vh - 48px); max-width: none; max-height: none; background: var(--ground); color: var(--ink); border-radius: 8px; }
-.large[open] { display: flex; flex-direction: column; } .large .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; } .large .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
+.large .answer { height: 100%; padding: 0; } .large .icon { font-size: var(--t-l); }
 .large::backdrop { background: #0008; }
 .dot { fill: var(--ground); stroke: var(--accent); stroke-width: 5; }
 .lab.old .answer :is(polyline, polygon, .rest, .past) { opacity: .38; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
-th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
+.titled .half { text-align: right; } th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
 thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
 .kept { white-space: nowrap; margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
-@container (max-width: 700px) { .answer .plot { flex: none; height: 240px; } .mini button { min-height: 44px; min-width: 44px; } }
+@container (max-width: 700px) { .lab > .answer .plot { flex: none; height: 240px; } .large { padding: 16px; width: 100vw; height: 100vh; border-radius: 0; } .large .titled { flex-wrap: wrap; } .mini button { min-height: 44px; min-width: 44px; } }
 `;
 
 const controls = `

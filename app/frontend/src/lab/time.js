@@ -4,8 +4,6 @@ import { tempo } from "./curves.js";
 
 const CLOCK = "lab";
 export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16]; // in units of real time
-const LONGEST_STEP = 0.25; // s of wall-clock time by which a top's time advances at most in one step
-const NEARLY = 0.02; // s
 
 export class Time {
   /** @param {() => void} changed t or playing has changed @param {string} name of the tops' clock */
@@ -36,22 +34,11 @@ export class Time {
     return this.chosen || tempo(this.events, this.t, this.end);
   }
 
-  // Shortens the tops' last step so that it ends at the end, where they would start again.
-  get pace() {
-    return Math.min(this.speed, Math.max(this.end - this.t, 0) / LONGEST_STEP);
-  }
-
   hear({ t, playing }) {
     if (this.held) return;
     this.t = Math.min(t * this.unit, this.end);
     this.playing = playing;
-    if (playing && this.t > this.end - NEARLY) this.rest();
     this.changed();
-  }
-
-  rest() {
-    this.play(false);
-    this.seek(this.end);
   }
 
   /** @param {number} t in s @param {boolean} held while it is dragged */
@@ -62,10 +49,9 @@ export class Time {
     this.changed();
   }
 
-  // Plays from the present time, or from the start if that is the end.
+  // Plays from the present time; the tops start again if that is the end.
   /** @param {boolean} playing */
   play(playing) {
-    if (playing && this.t > this.end - NEARLY) this.again();
     this.playing = playing;
     for (const top of this.tops) top.put({ playing });
     this.changed();

@@ -22,8 +22,9 @@ export class Top {
     const values = {
       texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null,
       tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, camera: [-1.12, 0.26, away], ...SHOWS,
-      get speed() { return time.pace; },
+      get speed() { return time.speed; },
       set speed(_) {},
+      get until() { return time.end / time.unit; },
       set tilted([theta]) { hand?.pull((180 / Math.PI) * theta); },
       on: (name, run) => listeners.set(name, [...(listeners.get(name) ?? []), run]),
     };

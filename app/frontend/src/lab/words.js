@@ -1,7 +1,6 @@
-// What happens now and why, and where to go next; for three tables, what each of them conserves.
+// What happens now and why, and where to go next.
 import { latest } from "./curves.js";
-import { drawn, part, say } from "./parts.js";
-import { TABLES } from "./stage.js";
+import { part, say } from "./parts.js";
 
 const LIFTED = ["over", "stands", "inverted"]; // events of a run that friction has turned over
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
@@ -46,36 +45,5 @@ export class Words {
     if (key === this.said) return;
     this.said = key;
     [this.headline.textContent, this.why.textContent] = said;
-  }
-}
-
-const RING = { cx: 7, cy: 7, r: 5.25, fill: "none", stroke: "currentColor", "stroke-width": 1.5 };
-const MARKS = {
-  full: () => [drawn("circle", { cx: 7, cy: 7, r: 6, fill: "currentColor" })],
-  half: () => [drawn("circle", RING), drawn("path", { d: "M7 1a6 6 0 0 1 0 12z", fill: "currentColor" })],
-  empty: () => [drawn("circle", RING)],
-};
-
-export class Keeps {
-  /** @param {Record<string, any>} texts */
-  constructor(texts) {
-    this.texts = texts;
-    this.body = part("tbody");
-    this.until = part("span", { class: "small" });
-    this.element = part("section", { class: "keeps", tabindex: 0, "aria-label": texts.keeps }, // scrolls on a phone
-      part("div", { class: "titled" }, part("h2", {}, texts.keeps), this.until),
-      part("table", {}, part("thead", {}, part("tr", {}, part("td"), ...texts.kept.map((word) => part("th", { scope: "col" }, word)))), this.body));
-  }
-
-  show(scene) {
-    const { texts } = this;
-    this.until.textContent = say(texts, texts.span, { t: [scene.end, 0] });
-    this.body.replaceChildren(...TABLES.map((table) => {
-      const run = scene.runs[table];
-      const cells = run?.keeps?.length ? run.keeps.map(([mark, word, numbers]) => part("td", {},
-        part("span", { class: "kept" }, drawn("svg", { viewBox: "0 0 14 14", width: 14, height: 14, "aria-hidden": "true" }, ...MARKS[mark]()), word),
-        part("span", { class: "small" }, numbers))) : [part("td", { colspan: texts.kept.length }, run?.why ?? "")];
-      return part("tr", {}, part("th", { scope: "row" }, texts.tables[table]), ...cells);
-    }));
   }
 }

@@ -49,6 +49,7 @@ export class Place {
       },
       landed: () => this.tellTime(),
       playingChanged: () => (model.playing = this.player.playing),
+      until: () => model.until,
     });
     const { player } = this, listening = new AbortController(), { signal } = listening;
     this.listening = listening;
@@ -106,6 +107,7 @@ export class Place {
     const { model, player } = this, first = !player.frames.count;
     this.echo = true; // a new motion does not change the other tops' clocks
     player.setFrames(model.frames);
+    this.said = undefined; // the same moment of another motion is news
     if (start) player.land(0);
     this.echo = false;
     if (!first || !player.frames.count) return false;

@@ -1,6 +1,8 @@
 // The present place in the trajectory. Playing advances t with the wall clock; everything else goes to an exact frame.
+// A motion repeats forever, or it is played once: then it pauses at its end, however it got there.
 import { Frames } from "./frames.js";
 
+const NEARLY = 1 / 500; // of a motion that is played once: this close to its end is its end, because times are rounded
 const LONGEST_STEP_MS = 250; // after the page has been suspended, continue where it stopped
 
 export class Player {
@@ -9,11 +11,13 @@ export class Player {
    * @param {() => void} tell.changed called when t or playing has changed
    * @param {() => void} tell.landed called when a person or Python has moved the cursor, so that Python can be told
    * @param {() => void} tell.playingChanged
+   * @param {() => number | undefined} [tell.until] the time to which the motion is played once; undefined if it repeats
    */
-  constructor({ changed, landed, playingChanged }) {
+  constructor({ changed, landed, playingChanged, until = () => undefined }) {
     this.changed = changed;
     this.landed = landed;
     this.playingChanged = playingChanged;
+    this.until = until;
     this.frames = new Frames();
     this.t = 0;
     this.playing = false;
@@ -27,13 +31,33 @@ export class Player {
     return Math.floor(this.place);
   }
 
-  // A new motion at the same moment: a playing top continues without jumping back to the start.
+  // Where playing ends; Infinity if it repeats.
+  get last() {
+    const until = this.until();
+    return until === undefined ? Infinity : Math.min(this.frames.end, until);
+  }
+
+  // Whether a time is at that end.
+  /** @param {number} t */
+  isEnd(t) {
+    const { frames: { count, start }, last } = this;
+    return count > 0 && last < Infinity && t >= last - NEARLY * (last - start);
+  }
+
+  // A new motion at the same moment: a playing top continues without jumping back to the start, unless it is over by
+  // then.
   /** @param {Bytes} bytes */
   setFrames(bytes) {
     this.frames = new Frames(bytes);
-    if (this.playing) this.t = this.wrap(this.t);
+    if (this.playing) this.t = this.isEnd(this.t) ? this.frames.start : this.within(this.t);
     else this.t = this.frames.count ? this.frames.time(this.frames.nearest(this.t)) : 0;
     this.changed();
+  }
+
+  // The time of the motion that belongs to any time.
+  /** @param {number} t */
+  within(t) {
+    return this.last === Infinity ? this.wrap(t) : Math.max(Math.min(t, this.last), this.frames.start);
   }
 
   /** @param {number} t */
@@ -49,16 +73,17 @@ export class Player {
     if (this.held) return false;
     const step = this.before === undefined ? 0 : Math.min(now - this.before, LONGEST_STEP_MS);
     this.before = now;
-    const t = this.t + step * unitsPerMs;
-    this.t = this.wrap(t);
-    return this.t < t;
+    const t = this.t + step * unitsPerMs, before = this.t;
+    this.t = this.within(t);
+    if (unitsPerMs && this.t === this.last) this.setPlaying(false); // a top that follows another one does not decide
+    return this.t < before;
   }
 
   // Takes the time of another player. Tells whether that one started again.
   /** @param {number} t */
   follow(t) {
     const before = this.t;
-    if (this.frames.count) this.t = this.wrap(t);
+    if (this.frames.count) this.t = this.within(t);
     return this.t < before;
   }
 
@@ -67,6 +92,7 @@ export class Player {
     if (playing === this.playing) return;
     this.playing = playing;
     this.before = undefined;
+    if (playing && this.isEnd(this.t)) this.t = this.frames.start;
     if (!playing) this.land(this.frames.nearest(this.t));
     this.playingChanged();
     this.changed();
@@ -87,13 +113,14 @@ export class Player {
     if (count) this.show((this.frames.nearest(this.t) + by + count) % count);
   }
 
-  // Goes to a time; a playing top continues from there once no pointer holds the time any more.
+  // Goes to a time; a playing top continues from there once no pointer holds the time any more, but not from the end.
   /** @param {number} t */
   seek(t, held = false) {
     if (!held && this.held) this.before = undefined;
     this.held = held;
     if (!this.frames.count) return;
-    if (this.playing) this.t = this.wrap(t);
+    if (this.playing && !held && this.isEnd(t)) this.setPlaying(false);
+    if (this.playing) this.t = this.within(t);
     else this.land(this.frames.nearest(t));
     this.changed();
   }

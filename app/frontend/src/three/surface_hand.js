@@ -102,14 +102,15 @@ export class SurfaceHand {
     this.pull.cancel();
   }
 
-  // Shows the values of the surface under the pointer; beyond the ends of the tielines, why there is no surface.
+  // Shows the values of the surface under the pointer; beyond the ends of the tielines, why there is no surface. Where
+  // nothing limits the motions there is no surface either.
   read() {
     const { surface, last } = this;
     if (!last) return;
     const i = this.under(last);
     if (i !== null) return surface.readValue(i, last);
     const place = surface.grid.rows > 1 && this.onFloor(last);
-    if (place) surface.readWhyNot(place, last);
+    if (place && surface.grid.on(place) === null) surface.readWhyNot(place, last);
     else this.leave();
   }
 
@@ -133,11 +134,15 @@ export class SurfaceHand {
     this.ray.setFromCamera(this.pointer, this.surface.stage.camera);
   }
 
-  // The index of the mesh point closest to the pointer, or null.
+  // The index of the mesh point closest to the pointer, or null. Through the surface's open side one sees the floor
+  // below it: that belongs to it too.
   /** @param {PointerEvent} event */
   under(event) {
+    const { surface: { grid, mesh } } = this;
+    if (grid.rows < 2) return null;
     this.aim(event);
-    return this.surface.grid.rows > 1 ? this.surface.mesh.nearest(this.ray) : null;
+    const hit = mesh.nearest(this.ray), place = hit === null ? this.onFloor(event) : null, below = place && grid.on(place);
+    return hit ?? (below !== null && grid.isReal(Math.floor(below / grid.columns)) ? below : null);
   }
 
   // The place on the floor under the pointer: [theta, K_J], or null outside the box.

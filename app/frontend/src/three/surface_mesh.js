@@ -1,5 +1,7 @@
 // The surface of Fig. 5: a mesh over theta and K_J, one row for each tieline.
 import * as THREE from "three";
+import { nearestRow } from "../figures/curves.js";
+import { isOn } from "../figures/grips.js";
 /** @import { Scale } from "./axes.js" */
 
 // From light to dark in even steps of OKLCH lightness, from yellow to brown: no line has one of these hues.
@@ -28,6 +30,13 @@ export class Grid {
   /** @param {number} row */
   isReal(row) {
     return Number.isFinite(this.height[row * this.columns]) && Number.isFinite(this.theta[row * this.columns]);
+  }
+
+  // The index of the point closest to a place on the floor, if that is on the tieline of its row; otherwise null.
+  /** @param {[theta: number, K_J: number]} place */
+  on([theta, K_J]) {
+    const row = nearestRow(this.K_J, K_J), tilts = this.theta.subarray(row * this.columns, (row + 1) * this.columns);
+    return isOn(tilts, tilts.subarray(-1), 0, theta) ? row * this.columns + nearestRow(tilts, theta) : null;
   }
 
   // Writes pairs of triangles between the rows to `index`; unused ones have no area.

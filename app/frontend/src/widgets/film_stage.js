@@ -4,6 +4,7 @@ import { Top } from "../lab/top.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { colours } from "../colours.js";
 import { coalesce, float32 } from "../data.js";
+import { seek } from "../figures/seeking.js";
 
 const PACE = 1 / 8; // in units of the real top's speed
 const STYLE = `<style>
@@ -23,7 +24,7 @@ export function renderFilmStage({ model, el, view }) {
   view.tippe?.dispose();
   const { texts, clock } = model;
   el.innerHTML = STYLE;
-  const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, pace: PACE }) });
+  const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
   Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
   const pill = part("div", { class: "pill", hidden: true }), shape = drawn("path", { d: PLAY, fill: "currentColor" });
   const none = part("p", { class: "none" }, model.none);
@@ -37,7 +38,7 @@ export function renderFilmStage({ model, el, view }) {
     shape.setAttribute("d", playing ? PAUSE : PLAY);
     play.setAttribute("aria-label", playing ? texts.pause : texts.play);
   }
-  let tilts = new Float32Array(), shows = false;
+  let tilts = new Float32Array(), shown = model.frames, shows = false;
   const hear = ({ detail: { t, index, playing } }) => {
     if (playing !== top.model.playing) put({ playing });
     const tilt = tilts[Math.min(index, tilts.length - 1)];
@@ -50,9 +51,10 @@ export function renderFilmStage({ model, el, view }) {
     none.hidden = some;
     top.element.hidden = !some;
     if (some && !shows) top.model.time = model.start; // where a motion begins that comes after none
-    shows = some;
     put({ ...(!some && { playing: false }), profile: model.profile, a: model.a, measured_label: model.measured_label, measured: model.measured, frames: model.frames });
     if (some) top.begin();
+    if (some && shows && model.anew && shown !== model.frames) seek(model.start, false, clock);
+    [shown, shows] = [model.frames, some];
   });
   for (const name of ["frames", "profile", "tilts", "measured", "a"]) model.on(name, show);
   window.addEventListener(`tippe:clock:${clock}`, hear);
