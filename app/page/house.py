@@ -118,7 +118,8 @@ class House:
     # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
-        return lab_view(self.lab_of, lambda: self.rests(), lambda: self._look_at(room.USUAL), self._explain)
+        figures = lambda: self._look_at(self.start.table("rough"))  # noqa: E731  (the paper's are of that table)
+        return lab_view(self.lab_of, lambda: self.rests(), figures, self._explain)
 
     def _explain(self):
         """The lesson's step that says why rubbing lifts it."""
@@ -221,7 +222,8 @@ class House:
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # the patch of the map
+        table = {"table": "ordinary"} if look else {}  # that of the map
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH, **table)  # the patch of the map
         if look:
             self._look_at("lab")
 
