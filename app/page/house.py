@@ -171,12 +171,14 @@ class House:
         view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes,
                            self.playing)  # fmt: skip
         planes.param.watch(lambda event: view.show(event.new), "picture")
+        planes.param.watch(lambda event: view.refuse(event.new), "refusal")
         self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
         planes.param.watch(lambda event: view.wait(), "busy")
         planes.param.watch(lambda *events: self.told(), ["picture", "busy"])
         planes.show()
         if planes.picture is not None:
             view.show(planes.picture)
+        view.refuse(planes.refusal)
         view.wait()
         self.pacer.shows(planes.follow, "rest")
         return view.main
