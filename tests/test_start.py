@@ -2,6 +2,7 @@
 
 from contextlib import contextmanager
 from dataclasses import astuple, replace
+from itertools import cycle
 from unittest.mock import patch
 
 import numpy as np
@@ -13,17 +14,19 @@ from panel.io.state import set_curdoc
 from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
 from app.model.lab.run import TOYS, start_of
+from app.model.lesson.lesson import NAMES as STEP_NAMES
 from app.model.planes.picture import SET
 from app.model.planes.planes import Planes
 from app.model.runs import Runs
-from app.model.start import Start, arrives, of_toy
+from app.model.start import TABLES, Start, arrives, of_toy
 from app.page import page
 from app.page.house import House
 from app.state.keep import explorer_of, read
-from app.state.names import ROWS
+from app.state.names import LEVELS, ROOMS, ROWS, SECTIONS
 from app.state.start import OneStart
 from app.text import LANGUAGES
 from app.widgets import rooms
+from app.widgets.controls import Dial
 from tippe_core import PRESETS, BareSphere, Top, TruncatedSphere
 
 TOY, PAPER = "Leine and Glocker's toy", "The paper's tippe top"
@@ -40,14 +43,15 @@ class Views:
         self.start.have(self.planes)
         self.lab.show()
         self.planes.show()
+        self.start.opened(room)
         self.go(room)
 
     def go(self, room, table=None):
         """Goes to a room, or to a table of it, as the head does."""
         if table:
             room = self.start.table(table)
-        left, self.room = self.room, room
-        self.start.moved(left, room)
+        self.room = room
+        self.start.moved(room)
         return self
 
 
@@ -128,6 +132,14 @@ def test_the_table_goes_along(views):
     assert views.go("lab").lab.scene.table == "ice"
     assert views.go(None, "rough").room == "roll"
     assert views.go("lab").lab.scene.table == "rough"
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_going_to_a_room_sets_no_table(views, table):
+    views.lab.ask(table=table)
+    for room in ("roll", "lab", "three-planes", "roll", "learn", "lab"):
+        assert views.go(room).explorer.table == table
+    assert views.lab.scene.table == table
 
 
 def test_the_law_of_friction_stays_when_one_comes_back(views):
@@ -269,6 +281,82 @@ def shown(house, seen):
         "room": seen.room, **{name: getattr(explorer, name) for name in names}, "let_go": astuple(explorer.let_go),
         "rolls": explorer.scene.trajectory.theta.tolist(), "toy": explorer.toy,
     }  # fmt: skip
+
+
+def start_of_page(house):
+    """Everything that a person has set."""
+    return {name: getattr(house.explorer, name) for name in Start.param if name != "name"}
+
+
+SHOWS = {"ordinary": "three-planes", "rough": "roll", "ice": "three-planes", "three": "three-planes"}
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_a_level_shows_the_table_that_is_set_and_sets_none(table):
+    with visitor("") as (house, seen):
+        house.lab_of.ask(table=table, mu=0.12)
+        house.keep.at_rest()
+        start, scene = start_of_page(house), house.lab_of.scene
+        for _ in range(2):
+            seen.level = "research"
+            assert seen.room == SHOWS[table]
+            house.keep.at_rest()
+            assert start_of_page(house) == start
+            seen.room = "learn"
+            assert seen.first("lab") == SHOWS[table]
+            seen.room = "lab"
+            house.keep.at_rest()
+            assert (seen.level, start_of_page(house)) == ("explore", start)
+        assert house.lab_of.scene is scene
+        house.keep.undo()  # the friction, the only step
+        assert house.explorer.mu == 0.3 and not house.keep.can_undo
+
+
+def test_friction_of_explore_is_that_of_research():
+    with visitor("") as (house, seen):
+        house.lab_of.ask(mu=0.12)
+        seen.level = "research"
+        picture = house.start._planes.picture
+        [dial] = [part for part in seen.columns[ROOMS.index("three-planes")].select(Dial) if part.input == "mu"]
+        assert picture.friction == house.lab_of.scene.motions["ordinary"].start.friction
+        assert (picture.friction.mu, dial.told[1]) == (0.12, 0.12)
+
+
+def test_a_table_chosen_in_any_room_is_set_in_all_of_them():
+    with visitor("") as (house, seen):
+        for level, other in (("research", "explore"), ("explore", "research")):
+            for table in ("three", "rough", "ice", "ordinary"):
+                seen.level = level
+                if level == "research":
+                    seen.room = house.start.table(table)
+                else:
+                    house.lab_of.ask(table=table)
+                for shown in (level, other):
+                    seen.level = shown
+                    assert seen.room == ("lab" if shown == "explore" else SHOWS[table])
+                    assert house.explorer.table == table
+        seen.level = "research"
+        house.explorer.table = "rough"  # set by whatever: the room follows
+        assert seen.room == "roll"
+
+
+@pytest.mark.parametrize("table", ["ordinary", "rough"])
+def test_no_room_sets_anything_of_the_start_when_it_opens(table):
+    with visitor(f"?v=2&tab=lab&table={table}&mu_k=.12&spin=21&tilt=12") as (house, seen):
+        house.keep.at_rest()
+        start, undo = start_of_page(house), house.keep.can_undo
+        for level in LEVELS:
+            for name in (*ROOMS[3:], "lab"):
+                seen.room = name
+                if name != "lab":
+                    seen.level = level
+                house.keep.at_rest()
+                assert (name, start_of_page(house), house.keep.can_undo) == (name, start, undo)
+        seen.room = "learn"
+        for section, step in zip(cycle(SECTIONS), STEP_NAMES, strict=False):
+            house._learn.param.update(section=section, step=step)
+        house.keep.at_rest()
+        assert (start_of_page(house), house.keep.can_undo) == (start, undo)
 
 
 STEPS = (

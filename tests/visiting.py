@@ -93,8 +93,13 @@ ROOMS = {
 def go_to(page, room):
     """Clicks the buttons that lead to a room, except those that are already chosen."""
     for role, name in zip(("tab", "radio", "radio"), ROOMS[room], strict=True):
-        button = page.get_by_role(role, name=name or "none", exact=True).locator("visible=true").first
-        if button.count() and not is_chosen(button):
+        if name is None:
+            continue
+        # the row below is that of the room before until the server has answered
+        where = page.locator(".rooms") if name == ROOMS[room][-1] else page
+        button = where.get_by_role(role, name=name, exact=True).locator("visible=true").first
+        button.wait_for()
+        if not is_chosen(button):
             button.click()
 
 

@@ -92,9 +92,14 @@ class Start(param.Parameterized):
     def toy(self) -> Toy:
         """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3."""
         try:
-            top = Top(self.a, self.I1, self.I3)
-        except TopError:  # reported at the control that caused it
-            top = self.shape.top
+            return self.body
+        except TopError:  # reported where it matters
+            return toy_of(self.shape, self.shape.top)
+
+    @property
+    def body(self) -> Toy:
+        """The same; raises TopError if no top, or no sphere, has these."""
+        top = Top(self.a, self.I1, self.I3)
         toy = toy_of(self.shape, top)
         if isinstance(toy, str) or fits(self.shape, top):
             return toy

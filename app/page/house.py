@@ -118,7 +118,8 @@ class House:
     # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
-        return lab_view(self.lab_of, lambda: self.rests(), lambda: self._look_at(room.USUAL), self._explain)
+        figures = lambda: self._look_at(self.start.table("rough"))  # noqa: E731  (the paper's are of that table)
+        return lab_view(self.lab_of, lambda: self.rests(), figures, self._explain)
 
     def _explain(self):
         """The lesson's step that says why rubbing lifts it."""
@@ -170,12 +171,14 @@ class House:
         view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes,
                            self.playing)  # fmt: skip
         planes.param.watch(lambda event: view.show(event.new), "picture")
+        planes.param.watch(lambda event: view.refuse(event.new), "refusal")
         self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
         planes.param.watch(lambda event: view.wait(), "busy")
         planes.param.watch(lambda *events: self.told(), ["picture", "busy"])
         planes.show()
         if planes.picture is not None:
             view.show(planes.picture)
+        view.refuse(planes.refusal)
         view.wait()
         self.pacer.shows(planes.follow, "rest")
         return view.main
@@ -221,7 +224,8 @@ class House:
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # the patch of the map
+        table = {"table": "ordinary"} if look else {}  # that of the map
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH, **table)  # the patch of the map
         if look:
             self._look_at("lab")
 

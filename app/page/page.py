@@ -13,7 +13,7 @@ from app.page.design import Design
 from app.page.house import TABS, House
 from app.share.share import Share
 from app.state.keep import read
-from app.state.names import LANGUAGE, VOTE
+from app.state.names import LANGUAGE, LEVELS, VOTE
 from app.tabs.lab import room
 from app.tabs.learn.student import student_page
 from app.tabs.learn.worksheet import worksheet
@@ -64,9 +64,13 @@ def page():
     rooms = Rooms(house.makers, TABS, keep, pacer.soon, room.AT_ONCE, room.opened(texts, search), room.USUAL,
                   house.level)  # fmt: skip
     rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
-    rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
+    rooms.param.watch(lambda event: house.start.moved(event.new), "room")
     house.level = rooms.level
-    house.start.moved("", rooms.room)
+    house.start.opened(rooms.room)
+    house.start.moved(rooms.room)
+    if rooms.room not in room.VIEWS[LEVELS[1]]:
+        rooms.turn(house.start.room)
+    house.explorer.param.watch(lambda event: rooms.turn(house.start.room), "table")
     head = HeadBar(rooms, keep, look, chosen(rooms, house, tongue, share), room.USUAL)
     share.param.watch(lambda event: head.opened(event.new), "is_open")
     tells(head, rooms, house)

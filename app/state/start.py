@@ -1,4 +1,5 @@
-"""Moving between rooms: which of the page's view-models is shown, and the table of the common start."""
+"""The one start that all rooms share: which view-model computes it in a room, and which room shows its table at the
+level "Research". Going to a room sets nothing of the start."""
 
 from app.model.start import PLANE
 
@@ -15,19 +16,27 @@ class OneStart:
         """To be called when the Planes have been created."""
         self._planes = planes
 
-    def moved(self, left, room):
-        """To be called when the page changes from one room to another, given by their names in an address."""
-        self._explorer.settle()
-        if room == ROLLING or (left, room) == (ROLLING, TOY):
+    def opened(self, room):
+        """To be called with the room that an address names: the one that rolls is an address of the rough table."""
+        if room == ROLLING:
             self._explorer.table = "rough"
+
+    def moved(self, room):
+        """To be called when the page shows a room, given by its name in an address."""
+        self._explorer.settle()
         for name, model in ((TOY, self._lab), (PLANES, self._planes)):
             if model and model.begun:
                 (model.show if room == name else model.hide)()
 
     def table(self, name):
-        """Sets the table; returns the room that shows it at the level "Explore"."""
+        """Sets the table; returns the room that shows it at the level "Research"."""
         self._explorer.table = name
-        return ROLLING if name == "rough" else PLANES
+        return self.room
+
+    @property
+    def room(self):
+        """The room that shows the present table at the level "Research"."""
+        return ROLLING if self._explorer.table == "rough" else PLANES
 
     def busy(self, room):
         """Whether this room is about to show other runs."""

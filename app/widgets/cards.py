@@ -51,8 +51,10 @@ UNSEEN = ":host { position: absolute; width: 1px; height: 1px; overflow: hidden;
 # A name, a note, and an error, wherever they are.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
-.name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { color: var(--alert, #b3261e);
-  font-weight: 500 } .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
+.name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { font-weight: 500 }
+.alert::before { content: "!" / ""; display: inline-grid; place-items: center; width: 1.5em; height: 1.5em;
+  margin-right: 6px; border-radius: 50%; background: var(--ink, #22303c); color: var(--card, white) }
+.note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
 .name[title], .note [title] { cursor: help }
 """
 TYPE = """

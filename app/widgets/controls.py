@@ -114,11 +114,14 @@ class Dial(Bundled):
     asked = param.List(default=[], doc="[count, number or text, whether it was typed].")
     words = param.String(default="", doc="HTML.")
     wrong = param.Boolean(default=False, doc="Whether what was typed is refused.")
+    nearest = param.List(default=[], doc="[value, words] of a button that takes the nearest possible value, or [].")
 
 
-def wording(words, wrong=False):
-    """The properties of a Dial for these words: HTML, but plain text for an error."""
-    return {"wrong": wrong, "words": alert(words) if wrong else note(words)}
+def wording(words, wrong=False, nearest=None):
+    """The properties of a Dial for these words: HTML, but plain text for an error; nearest: the nearest possible
+    value."""
+    take = [] if nearest is None else [nearest, say("lab_view.view.take", value=number(nearest))]
+    return {"wrong": wrong, "words": alert(words) if wrong else note(words), "nearest": take}
 
 
 def asked_of(sent):
@@ -177,18 +180,18 @@ class Control:
             return
         self._request(self.name, value, typed=True)
 
-    def show(self, value, shown, note, message, bounds=None):
+    def show(self, value, shown, note, message, bounds=None, nearest=None):
         """value: the input as it was solved; shown: the number for the entry; bounds: those of the slider, RANGES by
-        default. A message replaces the note, and then the entry keeps what was typed. The same holds after text that is
-        not a number, until the value changes."""
+        default. A message replaces the note, and then the entry keeps what was typed, and a button takes the nearest
+        possible value, if that is known. The same holds after text that is not a number, until the value changes."""
         if self._unread and (message or number(shown) == self._shown):
             return
-        wanted = (self._heard, value, shown, note, message, bounds)
+        wanted = (self._heard, value, shown, note, message, bounds, nearest)
         if wanted == self._stands:
             return
         self._unread = False
         if message:
-            self._say(message, wrong=True)
+            self._say(message, wrong=True, nearest=nearest)
             return
         self.follow(value, shown, bounds, **wording(note))
         self._stands = wanted
@@ -200,9 +203,9 @@ class Control:
         told = [self._heard, float(value), self._shown]
         self.view.tell(start=float(low), end=float(high), told=told, **more)
 
-    def _say(self, words, wrong=False):
+    def _say(self, words, wrong=False, nearest=None):
         self._stands = None
-        self.view.tell(**wording(words, wrong))
+        self.view.tell(**wording(words, wrong, nearest))
 
 
 def across(part):

@@ -102,6 +102,15 @@ class Rooms(param.Parameterized):
         level = level or self.level
         return self._last.get((tab, level), self.tabs[tab][level][0])
 
+    def turn(self, room):
+        """Makes a room the one of its tab: at once if the tab is shown at a level that has it, else when it is chosen
+        next."""
+        tab = self.tab_of(room)
+        levels = [level for level, names in self.tabs[tab].items() if room in names]
+        self._last |= dict.fromkeys([(tab, level) for level in levels], room)
+        if self.tab == tab and self.level in levels:
+            self.room = room
+
     def place(self, room):
         """The name in the document of a room's place."""
         return self._places[room].column.name

@@ -138,6 +138,18 @@ test("the earlier run is the one before the gesture, until it is dismissed or re
   assert.equal(before.follow(scene(28, 0.3, [], "rough"), scene(28, 0.3, [], "three")), null);
 });
 
+test("what changes elsewhere is compared with the run that was shown here; undo leads back to the earlier one", () => {
+  const before = new Before(BEFORE), first = scene(28, 0.3, []), slippery = scene(28, 0.12, []);
+  before.touch("mu", first, 0, 0);
+  assert.equal(before.follow(first, slippery, true).what, "Friction 0.3");
+  assert.equal(before.follow(slippery, slippery, true).what, "Friction 0.3"); // another room, and back
+  assert.equal(before.follow(slippery, scene(28, 0.2, []), true).what, "Friction 0.12"); // set in another room
+  assert.equal(before.follow(scene(28, 0.2, []), scene(28, 0.2, [], "rough"), true).what, "Table ordinary");
+  before.touch("mu", first, 0, 9000);
+  before.follow(first, slippery, true);
+  assert.equal(before.follow(slippery, first, true), null); // undo
+});
+
 test("one press makes one change, however long it lasts; the next press makes another", () => {
   const before = new Before(BEFORE), [first, second, third, last] = [20, 24, 28, 30].map((spin) => scene(spin, 0.3, []));
   before.touch("spin", first, 1, 0);

@@ -91,6 +91,7 @@ interface DialModel extends Model {
   asked: [count: number, wish: number | string, typed: boolean] | [];
   words: string;
   wrong: boolean;
+  nearest: [value: number, says: string] | [];
 }
 
 type KnownTop = { name: string; label: string; a: number; ratio: number; outline: [radius: number, height: number][] };

@@ -158,7 +158,10 @@ class Lab(param.Parameterized):
         self._shown = self.begun = self._again = self.rests = False
         self._messages: dict[str, str] = {}
         self.nearest: dict[str, float] = {}  # what can be, of each input that was refused as a number
-        self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and the inputs that set the Start back to it
+        self._good, self._back = (
+            FIRST,
+            {"table": TABLE, "slip": 1.0, "patch": PATCH} | arrives(),
+        )  # and the inputs that set the Start back to it
         self._strip: Key | None = None
         self._seen: Inputs | None = None  # the inputs at the last call of _follow()
         super().__init__()  # type: ignore[no-untyped-call]  # of param
@@ -260,7 +263,11 @@ class Lab(param.Parameterized):
         if not self._shown:
             return
         faults = {name: said for name in self.INPUTS if (said := fault(name, getattr(self.start, name), POSSIBLE))}
-        if faults:  # they came from a link
+        try:
+            self.start.body  # noqa: B018
+        except TopError as error:
+            faults["tilt"] = _sentence(error)  # which any start by hand has
+        if faults:  # they came from a link, or from another room
             self._messages |= faults
             self.start.later(**self._back)
             self._tell()

@@ -225,7 +225,8 @@ class Picture:
 
     outcome: that of the ball alone. growth: the factor by which NUDGE grew in the disturbed sliding run, None without
     one. inputs: those of the Planes, by name. messages: a sentence for each control whose value was refused, and "run"
-    for a run that was stopped; everything but the inputs is then that of the last valid Picture.
+    for a run that was stopped; everything but the inputs is then that of the last valid Picture. nearest: {control: the
+    nearest possible value}, where it is known.
     """
 
     settings: Settings
@@ -236,6 +237,12 @@ class Picture:
     inputs: MappingProxyType[str, Any]
     growth: float | None = None
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    nearest: MappingProxyType[str, float] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def is_old(self) -> bool:
+        """Whether it is not of its inputs, but of the last ones that gave one."""
+        return not {*self.messages} <= {*PLANES}
 
     @property
     def turns(self) -> float:

@@ -10,11 +10,12 @@ import param
 
 from app.model.explorer import Explorer
 from app.model.planes.picture import BY, SET, Picture, Settings
-from app.model.planes.run import for_reader, hits, nudged, solve
-from app.model.runs import LATER, Result, Run, Runs, Stopped
+from app.model.planes.refusal import Refusal, refused
+from app.model.planes.run import hits, nudged, solve
+from app.model.runs import LATER, Full, Result, Run, Runs, Stopped
 from app.model.scene import Scene
 from app.model.start import PLANE
-from app.text import say, told
+from app.text import say
 from tippe_core import (
     Scales,
     TopError,
@@ -64,6 +65,9 @@ class Planes(param.Parameterized):
 
     busy = param.Boolean(False, constant=True, doc="whether a run is under way")
     picture = param.ClassSelector(class_=Picture, constant=True, doc="the last solution; None before the first")
+    refusal = param.ClassSelector(
+        class_=Refusal, constant=True, doc="why there is no picture yet; None if there is one"
+    )
 
     INPUTS = ("by", *SET)
 
@@ -171,31 +175,46 @@ class Planes(param.Parameterized):
         else:
             with param.edit_constant(self):
                 self.busy = False
-        if isinstance(result, Stopped) and not told_to_stop:
+        if isinstance(result, Stopped) and not (told_to_stop or isinstance(result, Full)):
             return
         self._publish(settings, result, reached)
 
     def _publish(self, settings: Settings, result: Result, reached: float = 0.0) -> None:
-        messages = {}
-        if isinstance(result, Stopped):
-            messages["run"] = say("planes.run.stopped", reached=reached)
-        elif isinstance(result, TopError):
-            error = for_reader(result, settings.scales)
-            name = "law" if error.name == "friction" else error.name
-            hidden = settings.rolling is not None and name in ("spin", "tilt", "slip")
-            messages["by" if hidden else name] = told(error)
-        elif isinstance(result, Exception):
-            raise result
-        if messages:
-            if self.picture is None:
-                return
-            result = replace(self.picture, messages=MappingProxyType(messages))
+        if isinstance(result, Exception):
+            self._refuse(settings, result, reached)
+            return
         result = replace(result, inputs=MappingProxyType(self.inputs))
         with param.edit_constant(self):
-            self.picture = result
-        if not messages and self._runs.beside and not self.busy and hits(result):
+            self.param.update(picture=result, refusal=None)
+        if self._runs.beside and not self.busy and hits(result):
             self._beside = Run(lambda run: nudged(result, run.look), partial(self._nudged, result))
             self._runs.begin(self._beside, "nudged", LATER)
+
+    def _refuse(self, settings: Settings, error: Exception, reached: float) -> None:
+        """Says why there is no picture of these inputs; whatever the reason, nobody is left waiting for one."""
+        nearest: dict[str, float] = {}
+        if isinstance(error, TopError):
+            messages, nearest = refused(error, settings)
+        else:
+            messages = {"run": self._unfinished(error, reached)}
+        if isinstance(error, Full):
+            self._asked = None  # so that it is tried again
+        answer = Refusal(inputs=MappingProxyType(self.inputs), messages=MappingProxyType(messages),
+                         nearest=MappingProxyType(nearest))  # fmt: skip
+        with param.edit_constant(self):
+            if self.picture is None:
+                self.refusal = answer
+            else:
+                self.picture = replace(self.picture, **vars(answer))
+        if not isinstance(error, Stopped | TopError):
+            raise error
+
+    def _unfinished(self, error: Exception, reached: float) -> str:
+        if isinstance(error, Full):
+            return say("main.queue.full", count=error.args[0])
+        if not isinstance(error, Stopped):
+            return say("main.failed")
+        return say("planes.run.stopped" if self.picture else "planes.run.stopped_first", reached=reached)
 
     def _nudged(self, picture: Picture, growth: object) -> None:
         """Adds the growth of the disturbed run to the picture, if that is still shown."""

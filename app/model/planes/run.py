@@ -23,7 +23,7 @@ from app.model.planes.picture import (
     Setup,
 )
 from app.model.regimes import ENDS, GLIDES, OF_CORE, SLIPS, WOULD_LIFT
-from app.text import told
+from app.text import say, told
 from tippe_core import (
     SUNK,
     Scales,
@@ -68,6 +68,11 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
             if plane == "sliding":
                 raise
             motions[plane], messages[plane] = None, told(for_reader(error, settings.scales))
+        # the solver's error for numbers whose squares or reciprocals overflow
+        except (ValueError, ArithmeticError):
+            if plane == "sliding":
+                raise
+            motions[plane], messages[plane] = None, say("planes.run.extreme")
     return Picture(
         settings=settings, state=state, friction=settings.friction, motions=MappingProxyType(motions),
         outcome=outcome(top, state, settings.scales), inputs=settings.inputs, messages=MappingProxyType(messages),

@@ -49,8 +49,8 @@ KINDS_OF, WHY = 3, 3  # kinds of disagreement, and the reasons for each that are
 
 class Maps:
     """The content of the tab. runs: the page's Runs; scene: the page's, whose top slides; without it, the toy of the
-    arrival. throw(toy, spin, tilt, mu, look) starts the run at the bead in the Lab; look: and shows the Lab. usual: the
-    choices that a link need not mention."""
+    arrival. throw(toy, spin, tilt, mu, look) makes the run at the bead the start, when a person moves it; look: and
+    shows the Lab. usual: the choices that a link need not mention."""
 
     def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
@@ -84,7 +84,7 @@ class Maps:
         on_click(self.stop, lambda event: self._run and self._run.stop())
         on_click(self.closer, lambda event: self.settings.look_at(*self._around()))
         on_click(self.whole, lambda event: self.settings.look_at(*self._usual_spans()))
-        on_click(self.thrown, lambda event: self._to_lab(look=True))
+        on_click(self.thrown, lambda event: self._to_lab(self.choice.place, look=True))
         for i, button in enumerate(shows):
             on_click(button, lambda event, i=i: self.go(*self._ones[i], cell=True))
         self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
@@ -268,6 +268,8 @@ class Maps:
         if cell and self.level is not None:
             i, j = self.level.cell(across, up)
             across, up = float(self.level.x[j]), float(self.level.y[i])
+        # only a place that a person chose sets the start; first, so that both are one step of undo
+        self._to_lab((across, up), look=False)
         self._go([across, up])
 
     def _go(self, place):
@@ -284,12 +286,14 @@ class Maps:
             Run(lambda run: one_run(asked, across, up, run.look), partial(self._ran, asked, across, up)), "maps-run"
         )
         self.steady.show(asked, (across, up))
-        self._to_lab(look=False)
+        self.thrown_row.visible = self._thrown((across, up)) is not None
 
-    def _to_lab(self, look):
-        start = throw_of(self.asked, *self.choice.place) if self._throw else None
-        self.thrown_row.visible = start is not None
-        if start is not None:
+    def _thrown(self, place):
+        """The start of the run at a place in the Lab; None if it has none there."""
+        return throw_of(self.asked, *place) if self._throw else None
+
+    def _to_lab(self, place, look):
+        if (start := self._thrown(place)) is not None:
             self._throw(*start, look)
 
     def _ran(self, asked, across, up, result):

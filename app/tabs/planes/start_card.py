@@ -4,6 +4,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
+from app.model.planes.picture import PLANES
 from app.model.planes.planes import PRESETS
 from app.tabs.planes.words import degrees, stem_words
 from app.text import listed, say
@@ -13,6 +14,7 @@ from app.widgets.controls import Control, Wish
 NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
+SWITCHED = (*SWITCHES, "stem")
 SLIDES = ("sliding", "compare")  # planes with friction, on which the top can also hop
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 
@@ -26,6 +28,7 @@ class StartCard:
 
     def __init__(self, inputs, ask, choose, stop):
         self._ask, self._choose, self._law, self._plane = ask, choose, inputs["law"], inputs["plane"]
+        self._refused = set()  # the controls whose values are
         self.controls = {name: Control(name, inputs[name], self._set) for name in NUMBERS_SET}
         self.switches = {name: self._switch(name, inputs[name]) for name in SWITCHES}
         box = pmui.Checkbox(value=inputs["stem"], label=say("planes.stem.can"), description="", size="small",
@@ -72,27 +75,40 @@ class StartCard:
         self.progress.styles = {"visibility": "hidden" if percent is None else "visible"}
 
     def look(self, plane):
-        """Shows the inputs of friction and hops only on planes that have them."""
+        """Shows the inputs of friction and hops only on planes that have them, and one that is refused on all: the
+        picture is of all three."""
         self._plane, slides = plane, plane in SLIDES
         for part in (self.switches["law"].view, self._said["law"], self._lands, self.switches["landing"].view):
-            part.visible = slides
+            part.visible = slides or "law" in self._refused
         for name, number in self.numbers.items():
-            number.visible = slides and name in NUMBERS[self._law]
+            number.visible = (slides and name in NUMBERS[self._law]) or name in self._refused
 
     def show(self, picture, *, busy):
         """Shows the inputs of a Picture, unless newer ones have been requested, and those that were refused."""
-        settings, inputs, messages = picture.settings, picture.inputs, picture.messages
-        self._law = inputs["law"]
+        settings = picture.settings
+        notes = {name: _note(name, picture) for name in self.controls}
+        self._tell(picture, notes | {"stem": stem_words(settings), "by": _start_words(picture)}, busy=busy)
+        self.switches["stem"].view.visible = settings.shape is not None and settings.shape.touch_angle is not None
+
+    def refuse(self, refusal):
+        """Shows the inputs of a Refusal, and why there is no picture of them."""
+        self._tell(refusal, {}, busy=False)
+
+    def _tell(self, answer, notes, *, busy):
+        """answer: a Picture or a Refusal. What belongs to no control is said at the head of the card."""
+        inputs, messages = answer.inputs, answer.messages
+        self._law, self._refused = inputs["law"], {*messages}
         self._starts.visible = inputs["by"] == "spin"
         if not busy:
             for name, control in self.controls.items():
-                control.show(inputs[name], inputs[name], _note(name, picture), messages.get(name))
-            for name in ("by", "law", "landing", "stem"):
+                control.show(inputs[name], inputs[name], notes.get(name, ""), messages.get(name),
+                             nearest=answer.nearest.get(name))  # fmt: skip
+            for name in SWITCHED:
                 self.switches[name].show(inputs[name])
+        others = [said for name, said in messages.items() if name not in {*self.controls, *self._said, *PLANES}]
         for name, said in self._said.items():
-            said.object = alert(messages.get(name, "")) or {
-                "stem": stem_words(settings), "by": _start_words(picture)}.get(name, "")  # fmt: skip
-        self.switches["stem"].view.visible = settings.shape is not None and settings.shape.touch_angle is not None
+            why = " ".join([*others, messages.get(name, "")]) if name == "run" else messages.get(name, "")
+            said.object = alert(why.strip()) or notes.get(name, "")
         self.look(self._plane)
 
 

@@ -38,7 +38,7 @@ th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { c
 
 
 class ThreePlanes:
-    """main: the content of the room, which show(picture), look(plane) and wait() update.
+    """main: the content of the room, which show(picture), refuse(refusal), look(plane) and wait() update.
 
     inputs: the first inputs of a Planes, with its plane; ask: called with new ones; ask_top: called with inputs of the
     Explorer; choose: with the name of a body; work: the Planes' present run, with busy, elapsed, share and stop();
@@ -152,18 +152,19 @@ class ThreePlanes:
             self._poll.stop()
             self._poll = None
             self._start.show_progress(None)
-            self._age(False)
+            self._age("")
 
     def _look_at_run(self):
-        if self._work.elapsed > PATIENCE or self._is_old:
+        if self._work.elapsed > PATIENCE or self._old:
             self._start.show_progress(100 * self._work.share)
-            self._age(True)
+            self._age("old")
 
     def _age(self, old):
-        """Shows results of the previous run pale and marked as such."""
-        if old == self._is_old:
+        """Shows results of the previous run pale, with this sentence of planes.run; "" if they are those of the
+        inputs."""
+        if old == self._old:
             return
-        self._is_old = old
+        self._old = old
         with pn.io.hold():
             for part in (self._row, self._verdict, self._table, self._happened):
                 part.styles = part.styles | {"opacity": "0.4" if old else "1"}
@@ -172,12 +173,14 @@ class ThreePlanes:
     def _say_force(self):
         if self._picture is not None:
             said = say("planes.force.said", law=in_force(self._picture, self._plane))
-            self._force.object = f"{note(say('planes.run.old'))}{said}" if self._is_old else said
+            self._force.object = f"{note(say(f'planes.run.{self._old}'))}{said}" if self._old else said
 
     def show(self, picture):
         self._picture, settings = picture, picture.settings
         with pn.io.hold():
             self._start.show(picture, busy=self._work.busy)
+            if not self._work.busy:
+                self._age("last" if picture.is_old else "")
             self._verdict.object = verdict_words(picture)
             if self._shown is not settings:
                 self._figures.show(picture)
@@ -187,8 +190,16 @@ class ThreePlanes:
                 self._shown = settings
                 self.look(self._plane)
 
+    def refuse(self, refusal):
+        """Says why there is no picture yet, unless there is one, or none is missing."""
+        if refusal is None:
+            return
+        with pn.io.hold():
+            self._start.refuse(refusal)
+            self._verdict.object = note(say("planes.run.none"))
+
     _shown = _paced = _speed = None
-    _is_old = False
+    _old = ""
 
     def _tempo(self, settings):
         """The speed that was chosen by hand; else, for a motion of a new length, one at which it can be watched."""

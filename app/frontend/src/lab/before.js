@@ -11,6 +11,7 @@ export class Before {
     this.texts = texts;
     this.run = this.last = /** @type {any} */ (null);
     this.isBack = false; // whether the next run is the one that the person went back to
+    this.isAnswered = true; // whether the next run was requested elsewhere: by undo, or in another room
     this.name = "";
     this.touched = -Infinity;
     this.press = 0;
@@ -24,7 +25,7 @@ export class Before {
     this.name = name;
     this.touched = now;
     this.press = press;
-    this.isBack = false;
+    this.isBack = this.isAnswered = false;
   }
 
   forget() {
@@ -33,16 +34,25 @@ export class Before {
   }
 
   // The run to show beside the next scene, or null.
-  /** @param {any} shown the scene until now @param {any} next */
-  follow(shown, next) {
+  /** @param {any} shown the scene until now @param {any} next @param {boolean} answered whether nothing else is requested */
+  follow(shown, next, answered) {
     if (!shown || shown.table === "three" || next.table === "three" || !next.state.of) {
       this.forget();
       return null;
     }
-    if (changes(shown, next).length) this.run = this.isBack ? null : { ...(this.last ?? shown), before: null };
+    if (changes(shown, next).length) this.run = this.isBack ? null : this.earlier(shown, next);
+    this.isAnswered ||= answered;
     const what = this.run ? changes(this.run, next) : [];
     if (this.run && !what.length) this.run = null; // all inputs are the same again
     return this.run && { ...this.run, ...this.words(what, this.run, next) };
+  }
+
+  // What a person changed here is compared with the run before all of the gesture; what was changed elsewhere, with the
+  // run that was shown here, unless that leads back to the earlier one.
+  earlier(shown, next) {
+    const { run } = this;
+    if (this.isAnswered) return run && !changes(run, next).length ? null : { ...shown, before: null };
+    return { ...(this.last ?? shown), before: null };
   }
 
   // Dismisses the earlier run and requests it again, with ask().

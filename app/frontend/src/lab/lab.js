@@ -132,9 +132,9 @@ class Lab {
     this.state = { ...JSON.parse(this.model.told), ...JSON.parse(this.model.state) };
     if (!this.state.runs) return; // Python has not sent any runs yet
     const scene = this.read(), { time, model } = this;
-    scene.before = this.before.follow(this.scene, scene);
-    this.scene = scene;
     this.asking.hear(this.state.answered);
+    scene.before = this.before.follow(this.scene, scene, !this.asking.isAhead && !this.state.busy);
+    this.scene = scene;
     Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
     time.span = scene.state.whole ? scene.end : Math.max(scene.end, time.span); // an axis must not change while it is dragged
     this.element.dataset.table = scene.table;

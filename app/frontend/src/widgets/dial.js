@@ -13,7 +13,7 @@ input { font: inherit; color: inherit; box-sizing: border-box; margin: 0; }
 @media (max-width: 999px) { input { scroll-margin: calc(82px * var(--type, 1) + 24px + min(50vh, 400px)) 0 72px; } }
 input[type=text] { width: calc(100px * var(--type, 1)); flex: none; height: calc(28px * var(--type, 1)); padding: 2px 8px; text-align: right;
   background: transparent; border: 1px solid var(--edge, #7b8794); border-radius: 4px; font-variant-numeric: tabular-nums; }
-input[type=text][aria-invalid=true] { border-color: var(--alert, #b3261e); }
+input[type=text][aria-invalid=true] { border-bottom-width: 3px; font-weight: 600; }
 input:focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: 1px; border-radius: 4px; }
 input[type=range] { display: block; width: 100%; height: 26px; accent-color: var(--focus, ${colours.chosen}); cursor: pointer; touch-action: pan-y; }
 .marks { position: relative; height: 1.5em; margin: -3px 8px 2px; font-size: calc(12px * var(--type, 1)); color: var(--faint, #5b6875); }
@@ -21,7 +21,10 @@ input[type=range] { display: block; width: 100%; height: 26px; accent-color: var
 .marks span:first-child { transform: translateX(-8px); }
 .marks span::before { content: ""; position: absolute; left: 50%; top: -4px; height: 4px; border-left: 1px solid; }
 .marks span:first-child::before { left: 8px; }
-.note { color: var(--faint, #5b6875); } .alert { color: var(--alert, #b3261e); font-weight: 500; }
+.note { color: var(--faint, #5b6875); } .alert { font-weight: 500; }
+.alert::before { content: "!" / ""; display: inline-grid; place-items: center; width: 1.5em; height: 1.5em; margin-right: 6px; border-radius: 50%;
+  background: var(--ink, #22303c); color: var(--card, white); }
+.words button { font: inherit; font-weight: 600; color: inherit; background: none; border: 0; padding: 4px 0; min-height: 28px; text-decoration: underline; cursor: pointer; }
 `;
 const PAGE = 10; // steps of Page Up and Page Down
 const KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: PAGE, PageDown: -PAGE };
@@ -65,7 +68,7 @@ class Dial {
     this.name(part(".name"));
     this.listen();
     for (const what of ["told", "start", "end"]) model.on(what, () => this.take());
-    for (const what of ["words", "wrong"]) model.on(what, () => this.say());
+    for (const what of ["words", "wrong", "nearest"]) model.on(what, () => this.say());
     this.take();
     this.say();
   }
@@ -142,9 +145,21 @@ class Dial {
     this.place();
   }
 
+  // A button that takes a value.
+  /** @param {number} value @param {string} says */
+  remedy(value, says) {
+    const button = document.createElement("button");
+    Object.assign(button, { type: "button", textContent: says, onclick: () => {
+      this.typing = false;
+      this.ask(value, false);
+    } });
+    return button;
+  }
+
   say() {
     const { model, words, entry } = this;
     words.innerHTML = model.words;
+    if (model.nearest.length) words.append(this.remedy(...model.nearest));
     words.style.minHeight = model.lines ? `${1.35 * model.lines}em` : "";
     entry.setAttribute("aria-invalid", String(model.wrong));
   }
