@@ -13,8 +13,9 @@ from tornado.ioloop import IOLoop
 from wire import run
 
 from app.borrowed import counted, in_one_thread
-from app.server.door import Budget, Turns, budget
+from app.server.door import Budget, budget
 from app.server.sockets import Socket
+from app.turns import Turns
 
 pytestmark = pytest.mark.served
 
@@ -118,9 +119,9 @@ def test_sessions_are_made_in_turn_among_addresses():
         turns, order = Turns(0.25), []
 
         async def one(address):
-            await turns.turn(address)
+            turn = await turns.turn(address)
             order.append(address)
-            turns.done(0)
+            turn.done(0)
 
         await asyncio.gather(*(one(address) for address in ["flood"] * 5 + ["b", "c"]))
         return order

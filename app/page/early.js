@@ -18,6 +18,7 @@ function insert(script) {
   again.text = script.text;
   again.async = false; // in the order of the page
   document.body.append(again);
+  again.onerror = () => dispatchEvent(new Event("tippe:missing")); // waiting.js says so
   return again.src && new Promise((resolve) => ["load", "error"].forEach((name) => again.addEventListener(name, resolve)));
 }
 
@@ -34,7 +35,7 @@ async function later() {
     if (!script.src) await Promise.all(coming);
     coming.push(insert(script));
   }
-  if (here.Bokeh === standIn) return void delete here.Bokeh; // did not come: the page says so
+  if (here.Bokeh === standIn) return void delete here.Bokeh; // did not come
   for (const what of asked) here.Bokeh.safely(what);
 }
 

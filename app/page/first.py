@@ -31,6 +31,7 @@ from app.tabs.lab import room
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 from app.widgets.theme import FAMILY
+from app.widgets.waiting import waiting
 
 PAGE = Path(__file__).with_name("first.html")
 EARLY, BORROWED = inlined(PAGE.with_name("early.js")), inlined(PAGE.parents[1] / "borrowed.js")
@@ -98,7 +99,7 @@ def variables(language):
     early = {"language": language, "bundles": bundles, "searches": searches(),
              "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
     return {"bundles": bundles, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
-            "early_script": EARLY, "borrowed": BORROWED, "family": FAMILY}  # fmt: skip
+            "early_script": EARLY, "borrowed": BORROWED, "family": FAMILY, "waiting": waiting(language)}  # fmt: skip
 
 
 if __name__ == "__main__":

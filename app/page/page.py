@@ -61,7 +61,7 @@ def page():
         keep.add(owner)
     for show in (share.show, guide.show):
         pacer.shows(show, "rest")
-    rooms = Rooms(house.makers, TABS, keep, pacer.soon, room.AT_ONCE, room.opened(texts, search), room.USUAL,
+    rooms = Rooms(house.makers, TABS, keep, pacer.now, room.AT_ONCE, room.opened(texts, search), room.USUAL,
                   house.level)  # fmt: skip
     rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
     rooms.param.watch(lambda event: house.start.moved(event.new), "room")

@@ -12,6 +12,7 @@ from tornado.ioloop import IOLoop
 
 from app.kernels import compiling
 from app.model.runs import FILES, LATER, MAPS, WORK
+from app.turns import rooms
 
 try:
     import resource
@@ -21,9 +22,10 @@ except ImportError:  # Windows
 STEP = 1.0  # s
 HEARD = 15.0  # s after which a worker that reports nothing counts as ended
 REMEMBERED = 15  # steps over which the longest delay is reported
-REFUSALS = ("stranger", "full", "crowded", "hurried", "stopping", "ended", "connection", "message")
+REFUSALS = ("stranger", "full", "crowded", "hurried", "stopping", "ended", "failed", "connection", "message")
 POOLS = {"run": WORK, "later": LATER, "file": FILES, "map": MAPS}
-QUEUES = ("page", "session", *POOLS)  # each reports how many wait, how many had their turn, and how long those waited
+# Each reports how many wait, how many had their turn, and how long those waited.
+QUEUES = ("page", "session", "room", *POOLS)
 STATES = ("full", "stopping", "compiling")
 FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files",
           *(f"refused {why}" for why in REFUSALS),
@@ -87,7 +89,7 @@ class Watch:
     def look(self):
         """Writes the present state."""
         door = self._door
-        queues = {"page": door.pages, "session": door.making} | POOLS
+        queues = {"page": door.pages, "session": door.making, "room": rooms()} | POOLS
         self.board.write(
             full=door.full, stopping=door.stopping, compiling=compiling(), sessions=len(door.sessions),
             connections=len(door.sockets), delay=max(self._delays), memory=memory(),

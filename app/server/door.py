@@ -1,52 +1,14 @@
 """Admission of visitors, and how much of the server's own thread each session may take."""
 
-import asyncio
 import time
 import types
-from collections import Counter, OrderedDict, deque
+from collections import Counter
 from contextlib import contextmanager
 
-from tornado.ioloop import IOLoop
+from app.turns import Turns
 
 SHARE, SAVED = 0.5, 5.0  # share of the processor for one session, and s of it that a quiet session can save up
 LONGEST_WAIT = 0.25  # s, in addition to the cost of the message itself, so that "Cancel" gets through
-
-
-class Turns:
-    """Lets things be created one at a time, in turn among the addresses that ask. pause: the time after each in which
-    the admitted visitors are served, as a multiple of the time that it took."""
-
-    def __init__(self, pause):
-        self._pause, self._waiting, self._busy = pause, OrderedDict(), False  # address -> deque of futures
-        self.turns, self.waited = 0, 0.0  # how many there were, and s that these waited
-
-    def waiting(self, address=None):
-        """The number of those that wait, in all or from one address."""
-        return sum(map(len, self._waiting.values())) if address is None else len(self._waiting.get(address, ()))
-
-    async def turn(self, address):
-        """Returns when it is the caller's turn; the next one waits for done()."""
-        since = time.monotonic()
-        if self._busy:
-            mine = asyncio.get_running_loop().create_future()
-            self._waiting.setdefault(address, deque()).append(mine)
-            await mine
-        self._busy = True
-        self.turns, self.waited = self.turns + 1, self.waited + time.monotonic() - since
-
-    def done(self, took):
-        """Ends a turn; admitted visitors are served before the next one."""
-        IOLoop.current().call_later(took * self._pause, self._next)
-
-    def _next(self):
-        if not self._waiting:
-            self._busy = False
-            return
-        address, queue = self._waiting.popitem(last=False)
-        mine = queue.popleft()
-        if queue:
-            self._waiting[address] = queue  # behind the others
-        mine.set_result(None)
 
 
 class Door:

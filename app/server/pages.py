@@ -4,23 +4,16 @@ import logging
 import re
 import secrets
 import time
-from html import escape
-from pathlib import Path
-from string import Template
 
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from panel.io.resources import Resources
 from panel.io.server import server_html_page_for_session
 
 from app import text
-from app.bundle import inlined
 from app.server.answers import Handler, Root
+from app.widgets.waiting import waiting
 
 log = logging.getLogger("tippe")
-
-# While a page waits for its turn.
-WAITING = Template(Path(__file__).with_name("waiting.html").read_text(encoding="utf-8"))
-SCRIPT = inlined(Path(__file__).with_name("waiting.js"))
 
 
 class Sheet:
@@ -33,11 +26,10 @@ class Sheet:
         html = server_html_page_for_session(
             session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
             template_variables=document.template_variables)  # fmt: skip
-        before, after = html.rsplit("</body>", 1)
+        before, after = html.split(waiting(text.DEFAULT))  # the language of the template
         self._pages = {}
         for language in text.LANGUAGES:
-            words = {name: escape(text.say(f"main.server.{name}", language)) for name in ("made", "busy")}
-            html = f"{before}{WAITING.substitute(words, script=SCRIPT)}</body>{after}"
+            html = f"{before}{waiting(language)}{after}"
             self._pages[language] = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', html)
 
     def page(self, language, token, nonce):
@@ -66,7 +58,7 @@ class Page(Handler):
             log.warning("refused %s a page: %s", address, text.say(f"main.server.{refusal}", text.DEFAULT))
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return
-        await app.door.pages.turn(address)
+        turn = await app.door.pages.turn(address)
         start = time.monotonic()
         try:
             nonce = secrets.token_urlsafe(16)
@@ -74,7 +66,7 @@ class Page(Handler):
             self.set_policy(nonce)
             self.finish(app.sheet.page(self.language, self._token(), nonce))
         finally:
-            app.door.pages.done(time.monotonic() - start)
+            turn.done(time.monotonic() - start)
 
     def _token(self):
         """The token that opens a session, with the data from which its page is made."""

@@ -47,7 +47,7 @@ log = logging.getLogger("tippe")
 # s after which a connection on which nothing is asked is closed. A browser keeps six open for minutes; a proxy, few.
 IDLE, IDLE_PROXY = 5, 75
 PING = 45  # s
-FRESH = 120  # s in which a page that was sent may open its session
+FRESH = 900  # s in which a page that was sent may open its session: at 100 kbit/s its scripts take 130
 TIDY = 10  # s
 
 

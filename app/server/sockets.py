@@ -105,7 +105,7 @@ class Socket(Answer, WSHandler):
         else:
             refusal = "ended" if time.time() > expiry else app.door.refusal(self.address)
         if refusal:
-            self._refuse(4000, text.say(f"main.server.{refusal}", text.DEFAULT), refusal)
+            self._refuse_for(refusal)
             return
         if self.ws_connection is None:  # gone again
             return
@@ -115,21 +115,21 @@ class Socket(Answer, WSHandler):
             # Under the lock nothing that the session has to say comes before the greeting.
             await budget(session).steps(session.with_document_locked(self._greet, session))
             return
-        await app.door.making.turn(self.address)
+        turn = await app.door.making.turn(self.address)
         start = time.monotonic()
         try:
             if self.ws_connection is not None and not self.ws_connection.is_closing():
                 mine = Budget()
                 await mine.steps(self._make(session_id, mine))
         finally:
-            app.door.making.done(time.monotonic() - start)
+            turn.done(time.monotonic() - start)
 
     async def _make(self, session_id, mine):
         try:
             session = await self.application_context.create_session_if_needed(session_id, self.request, self.token)
         except Exception as error:
             note(error, self.address)
-            self._refuse(4000, "The page could not be made.")
+            self._refuse_for("failed")
             return
         session.budget = mine
         prepare(session.document)
@@ -150,6 +150,10 @@ class Socket(Answer, WSHandler):
         if self.connection is not None:
             with budget(self.connection.session).work():
                 super().on_close()
+
+    def _refuse_for(self, reason):
+        """The page says it in its own words: waiting.js, which reads the name."""
+        self._refuse(4000, f"{reason}: {text.say(f'main.server.{reason}', text.DEFAULT)}", reason)
 
     def _refuse(self, code, sentence, why="connection"):
         self.refused = True

@@ -3,13 +3,18 @@ created when it is first shown, and then stays. Until then its place says that i
 failed."""
 
 import logging
+import time
+from functools import partial
 
 import panel as pn
 import panel_material_ui as pmui
 import param
 
+from app import turns
+from app.model.runs import connected_to, to_session
 from app.text import say
 from app.widgets.cards import BUTTON, alert, note, on_click, words
+from app.widgets.failure import attempt
 
 AROUND = (24, 28)
 
@@ -17,35 +22,93 @@ log = logging.getLogger("tippe")
 
 
 class Place:
-    """The place of a view. name: its name; make: a function that returns the view; soon: that of a Pacer."""
+    """The place of a view. name: its name; make: a function that returns the view; add: Pacer.now.
 
-    def __init__(self, name, make, soon):
-        self._make, self._soon, self._view, self._asked = make, soon, None, False
-        self._failed = False
+    Views are created in turn among all pages of the server, in two steps: its parts, and then what the browser gets of
+    them. Between the steps, and after them, others are served."""
+
+    def __init__(self, name, make, add):
+        self._make, self._add, self._view, self._asked = make, add, None, False
+        self._failed, self._turn, self._document = False, None, pn.state.curdoc
+        self._says = words(self._waiting(), margin=AROUND)
         self.column = pn.Column(
-            self._waiting(), name=f"place-of-{name}", sizing_mode="stretch_width", margin=0, visible=False
+            self._says, name=f"place-of-{name}", sizing_mode="stretch_width", margin=0, visible=False
         )
 
     @staticmethod
-    def _waiting():
-        return words(f'<div role="status">{note(say("main.making.waits"))}</div>', margin=AROUND)
+    def _waiting(before=0):
+        """What stands there until the view does; before: how many are served first."""
+        name = {0: "waits", 1: "next"}.get(before, "before")
+        return f'<div role="status">{note(say(f"main.making.{name}", count=before))}</div>'
 
     def ask(self):
-        """Has the view created, unless it exists or is being created."""
+        """Has the view created when its turn comes, unless it exists or is being created."""
         if self._asked:
             return
         self._asked = True
         if self._failed:
             self._failed = False
-            self.column.objects = [self._waiting()]
-        self._soon(self.fill)
+            self.column.objects = [self._says]
+        self._says.object = self._waiting()
+        if self._document is None or self._document.session_context is None:  # no server, so no others
+            self._add(self.fill)
+            return
+        self._line_up()
+
+    def leave(self):
+        """Its page looks elsewhere: it gives up its turn, unless that has come."""
+        if self._turn is not None and self._turn.leave():
+            self._turn, self._asked = None, False
 
     def fill(self):
         """Creates the view now. An error leaves a sentence, and creating it can be tried again."""
         self._asked = True
+        self._attempt(self._create, self._show)
+
+    def _line_up(self):
+        self._turn = turns.rooms().ask(self._document, self._come, self._tell)
+
+    def _come(self, turn):
+        """The turn has come, but the page's document is not locked yet."""
+        if connected_to(self._document)():
+            self._post(partial(self._step, turn))
+        elif turn.begin():
+            self._asked = False
+            turn.done(0)
+
+    def _post(self, act):
+        to_session(self._document)(partial(attempt, act))
+
+    def _step(self, turn):
+        if turn is not self._turn:  # it was given up meanwhile
+            return
+        if not turn.begin():  # it was not taken up in time
+            self._line_up()
+            return
+        start, creates = time.monotonic(), self._view is None
         try:
-            self._view = self._view or self._make()
-            self.column.objects = [self._view]
+            if creates:
+                with pn.io.hold():
+                    self._attempt(self._create)
+            else:
+                self._add(partial(self._attempt, self._show))
+        finally:
+            end = turn.rest if creates and not self._failed else turn.done
+            end(time.monotonic() - start)
+
+    def _tell(self, before):
+        self._post(lambda: setattr(self._says, "object", self._waiting(before)))
+
+    def _create(self):
+        self._view = self._view or self._make()
+
+    def _show(self):
+        self.column.objects = [self._view]
+
+    def _attempt(self, *steps):
+        try:
+            for step in steps:
+                step()
         except Exception:
             log.exception("a bug: a tab could not be made")
             self._asked, self._failed = False, True
@@ -62,19 +125,19 @@ class Rooms(param.Parameterized):
 
     makers: {name in the address: function that creates the view}; tabs: {name: {level: names of its rooms}}; opened,
     level: the room that is shown first, and its level; usual: the room if there is no such one; at_once: rooms whose
-    view is then created with the page. soon: that of a Pacer.
+    view is then created with the page. add: Pacer.now.
     """
 
     room = param.Selector(doc="a key of makers")
     level = param.Selector(doc="a name of levels; some tabs have other rooms at another level")
 
-    def __init__(self, makers, tabs, keep, soon, at_once, opened, usual, level):
+    def __init__(self, makers, tabs, keep, add, at_once, opened, usual, level):
         super().__init__()
         self.tabs, levels = tabs, list(next(iter(tabs.values())))
         self.param.room.objects, self.param.level.objects = list(makers), levels
         self.room = opened if opened in makers else usual
         self.level = level if level in levels else levels[-1]
-        self._places = {name: Place(name, make, soon) for name, make in makers.items()}
+        self._places = {name: Place(name, make, add) for name, make in makers.items()}
         self._last = {}  # (tab, level) -> the room of it that was shown last
         self.columns = [place.column for place in self._places.values()]
         self._follow()
@@ -134,6 +197,8 @@ class Rooms(param.Parameterized):
     def _look(self):
         for name, place in self._places.items():
             place.column.visible = name == self.room
+            if name != self.room:
+                place.leave()
         # Its results might reach the page before the page itself: it is created once that has loaded.
         ask = self._places[self.room].ask
         if pn.state.loaded:
