@@ -2,16 +2,20 @@
 
     python tests/basins.py [cells a side [folder of what was run]]
 
-400 a side unless told otherwise, 1.3 hours of one core; `make proof` runs it. What was run is kept in tests/data/basins
-and goes on where that was stopped. Writes docs/basins.png and docs/basins.md.
+400 a side unless told otherwise, 1.3 hours of one core; `make proof` runs it. What was run is in tests/data/basins with
+its date and a hash of the code that ran it; it goes on where that was stopped, unless the code is another one now.
+Writes docs/basins.png and docs/basins.md; `python tests/ages.py` only how old they are.
 """
 
+import datetime
+import functools
 import sys
 import zlib
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+from fingerprint import fingerprint, short
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from scipy.optimize import minimize
@@ -41,6 +45,14 @@ def ended(spins, tilts, rtol=1e-6, progress=None):
     return many.end, many.hops
 
 
+@functools.cache
+def code():
+    """The hash of what computes the ends, and of the numbers of the body that it is given."""
+    body = PRESETS[0]
+    numbers = [body.top.a, body.top.I1, body.top.I3, *body.shape.edge, body.shape.scales.time]
+    return short(f"{fingerprint(slide_many, SmoothedCoulomb)} {[f'{number:.9g}' for number in numbers]}")
+
+
 def kept(file, spins, tilts, rtol=1e-6, wait=False):
     """(codes of WORDS, hops) of starts, each (n,): what a file has of them, and the rest run and written, a piece at a
     time; wait: only what the file has, NONE for the rest."""
@@ -49,7 +61,7 @@ def kept(file, spins, tilts, rtol=1e-6, wait=False):
     end, hops = np.full(spins.size, NONE, np.uint8), np.zeros(spins.size, np.uint8)
     if file.exists():
         with np.load(file) as old:
-            if old["mark"] == mark:
+            if old["mark"] == mark and (wait or str(old["code"]) == code()):
                 end, hops = old["end"], old["hops"]
     for first in range(0, 0 if wait else spins.size, PIECE):
         piece = slice(first, first + PIECE)
@@ -58,7 +70,8 @@ def kept(file, spins, tilts, rtol=1e-6, wait=False):
         words, times = ended(spins.ravel()[piece], tilts.ravel()[piece], rtol)
         end[piece], hops[piece] = [WORDS.index(word) for word in words], np.minimum(times, 255)
         file.parent.mkdir(parents=True, exist_ok=True)
-        np.savez_compressed(file.with_suffix(".part.npz"), end=end, hops=hops, mark=mark)
+        made = {"mark": mark, "code": code(), "date": str(datetime.date.today())}
+        np.savez_compressed(file.with_suffix(".part.npz"), end=end, hops=hops, **made)
         file.with_suffix(".part.npz").replace(file)
         print(f"{file.stem}: {(end != NONE).mean():.1%}", flush=True)
     return end.reshape(shape), hops.reshape(shape)
@@ -120,9 +133,22 @@ def drawn(end):
     figure.savefig(DOCS / "basins.png", dpi=150)
 
 
-def page(cells, starts, found, last, rtol=None):
-    """The lines of docs/basins.md. last: of last_borders(). found: {(low, high): ends of pairs()}; rtol: the share of
-    the same starts that end otherwise where steps are a thousand times as exact, where that was asked."""
+def age(folder):
+    """The line of the page that says when and by which code the ends were computed."""
+    made = []
+    for file in sorted(folder.glob("*-*.npz")):
+        with np.load(file) as old:
+            made.append((str(old["date"]), str(old["code"]) == code()))
+    first, last = min(made)[0], max(made)[0]
+    when = f"Computed on {first}" if first == last else f"Computed from {first} to {last}"
+    old = sum(not same for _, same in made)
+    return (f"{when}; **{old} of the {len(made)} parts are not of today’s code**: a function that the runs go through "
+            "has changed since." if old else f"{when} with today’s code.")  # fmt: skip
+
+
+def page(cells, starts, found, last, told, rtol=None):
+    """The lines of docs/basins.md. told: of age(). last: of last_borders(). found: {(low, high): ends of pairs()}.
+    rtol: the share of the same starts that end otherwise where steps are a thousand times as exact, if asked."""
     rng, others = np.random.default_rng(5), {spins: ends[:, 1:] != ends[:, :1] for spins, ends in found.items()}
     yield from ("# Where the paper’s top ends", "")
     yield (f"The final state of the paper’s top with its stem after {SECONDS:g} s, with `SmoothedCoulomb(0.3, 0.1)`: "
@@ -130,7 +156,7 @@ def page(cells, starts, found, last, rtol=None):
            f"them (for {CELLS} × {CELLS}, as `make proof` does, 1.3 hours of one core) and can be stopped and "
            "continued; what was run is kept in `tests/data/basins`."
            )  # fmt: skip
-    yield from ("", "![Ends over spin and tilt](basins.png)", "")
+    yield from ("", told, "", "![Ends over spin and tilt](basins.png)", "")
     fastest = ", ".join(f"{spin:.0f} rev/s below {tilt} degrees" for tilt, spin in last.items())
     yield ("Above about 28 rev/s different ends alternate. The fastest start that ends differently from a neighbour "
            f"has {fastest}; all faster ones end on the stem.")  # fmt: skip
@@ -178,7 +204,7 @@ def computed(cells, folder, wait=False):
 def main(cells=CELLS, folder=KEPT):
     end, found, other = computed(cells, folder)
     drawn(end)
-    text = "\n".join(page(cells, STARTS, found, last_borders(end), other)) + "\n"
+    text = "\n".join(page(cells, STARTS, found, last_borders(end), age(folder), other)) + "\n"
     (DOCS / "basins.md").write_text(text, encoding="utf-8")
 
 

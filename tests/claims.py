@@ -95,7 +95,10 @@ ROWS = {
         "t by quadrature": ("t(theta) is the integral of dtheta/f^(1/2)", "Rolling"),
     },
     "Oracles": {
-        "Lagrange": ("sympy: Lagrange's equations with multipliers for the rolling constraint", "f, forces, roll"),
+        "Lagrange": (
+            "sympy: Lagrange's equations with multipliers for the rolling constraint",
+            "f, friction_force, normal_force, roll, glide, slide, Viscous",
+        ),
         "mpmath: f": ("fifty digits at poles, at P, merging wells, a = -10", "f"),
         "mpmath: forces": ("the same places", "normal_force, friction_force"),
         "mpmath: turning points": ("the same places", "turning_points"),

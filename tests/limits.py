@@ -4,8 +4,6 @@ The motion at each theta is recovered from the definitions of the constants as v
 force from the rigid body's own equations: no formula of the paper, and no linearity in the energy, is used.
 """
 
-import sys
-
 import numpy as np
 import rigid_body as rb
 from references import kept
@@ -113,7 +111,7 @@ class Family:
         return good, *self.ends(theta_p, good), self.worst(bad, mu_s, theta_p)[1]
 
 
-@kept(rb, sys.modules[__name__])
+@kept
 def limit(top, K_J, K_R, mu_s=None):
     """Family.limit()"""
     return Family(top, K_J, K_R).limit(mu_s)

@@ -4,27 +4,28 @@
 is another one. 200 films take some twenty minutes of one core.
 """
 
-import hashlib
+import datetime
+import functools
 import json
 from pathlib import Path
 
 import numpy as np
+from fingerprint import fingerprint
 from measured_bodies import film, other_value, recovered
 
-from app.model import measured
-from app.model.measured.fit import Problem
-from app.model.measured.motion import model_of
+from app.model.measured.data import Data
+from app.model.measured.fit import Problem, fit
+from app.model.measured.motion import model_of, residuals_of
 
 ALL = range(1000, 1200)
 """The seeds, fixed before any was looked at."""
 FILE = Path(__file__).parent / "data" / "measured.jsonl"
-FIT = ("data", "fit", "known", "motion", "starts")
 
 
+@functools.cache
 def stamp():
-    """Of the fit as it is."""
-    texts = (Path(measured.__path__[0]) / f"{name}.py" for name in FIT)
-    return hashlib.sha256(b"".join(path.read_bytes() for path in texts)).hexdigest()[:12]
+    """The hash of the fit as it is, with all that it goes through."""
+    return fingerprint(fit, model_of, residuals_of, Data)
 
 
 def kept():
@@ -46,8 +47,8 @@ def asked(seed):
     _, data = film(seed)
     unknown = {name: other_value(found, data, name, film(seed)[0][3]) for name in found.unknown}
     off = {name: round(float(z), 4) for name, z in found_off}
-    return {"seed": seed, "kind": found.model.name, "fit": stamp(), "off": off, "unknown": unknown,
-            "refused": bool(found.refused), "sure": bool(found.sure)}  # fmt: skip
+    return {"seed": seed, "kind": found.model.name, "fit": stamp(), "date": str(datetime.date.today()), "off": off,
+            "unknown": unknown, "refused": bool(found.refused), "sure": bool(found.sure)}  # fmt: skip
 
 
 def go_on(seeds=ALL):
@@ -78,6 +79,13 @@ def by_slopes(seed):
     J, rest = problem.slopes(x), problem.residuals(x)
     inverse = np.linalg.inv(J.T @ J)
     return dict(zip(problem.model.free, -inverse @ J.T @ rest / np.sqrt(np.diag(inverse)), strict=True))
+
+
+def age(rows):
+    """How many rows are of today's fit, for the head of docs/validation.md."""
+    old = sum(row["fit"] != stamp() for row in rows)
+    return (f"**{old} of the {len(rows)} films were asked of a fit that has changed since.**" if old else
+            f"All {len(rows)} films were asked of today’s fit.")  # fmt: skip
 
 
 def lines(rows):

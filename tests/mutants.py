@@ -1,8 +1,9 @@
 """Would a wrong formula be noticed? python tests/mutants.py (many hours; --files, --share, --minutes for less).
 
 In each statement that computes something one sign and one factor are changed, one at a time, in a process of its own,
-and the tests are run until one fails. data/mutants.jsonl keeps what each change came to, docs/mutants.md tells it. What
-is known is not tried again, unless the statement or the test that noticed it is another now.
+and the tests are run until one fails. data/mutants.jsonl keeps what each change came to, docs/mutants.md tells it
+(mutants_page.py). What is known is not tried again, unless the function that was changed or the test that noticed it is
+another now. `python tests/ages.py` writes the page anew and tries nothing.
 """
 
 import argparse
@@ -21,6 +22,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from fingerprint import core
+from mutants_page import EXPLAINED, LOG, PAGE, ROOT, functions_in, logged, page
 from mutation import sites
 
 
@@ -29,9 +32,6 @@ def files(names):
     return [f"test_{name}.py" for name in names.split()]
 
 
-ROOT = Path(__file__).parent.parent
-LOG = ROOT / "tests" / "data" / "mutants.jsonl"
-PAGE = ROOT / "docs" / "mutants.md"
 PAPER = ["equations", "poles", "constants", "curve", "forces", "wells", "limits"]
 ROLLING = ["differences", "nutation", "phase", "series", "crowding", "rolling"]
 SLIDING = ["friction", "dynamics", "stepper", "following", "happening", "contacts", "impact", "impulses", "standing",
@@ -90,37 +90,8 @@ def tests_of(name, slow, best):
 
 def best_of(known, name):
     """The tests that have noticed most in this file."""
-    noticed = Counter(line["by"] for (file, *_), line in known.items() if file == name and "::" in line["by"])
+    noticed = Counter(line["by"] for line in known.values() if line["file"] == name and "::" in line["by"])
     return [test for test, _ in noticed.most_common(8)]
-
-
-# Changes that tests cannot notice, and why: (file, code after the change) -> reason.
-EXPLAINED = {
-    (
-        "wells",
-        "return NoMotionError('E', float(E), 'E >= {least:.10g} for this top, K_J = {K_J:.10g} and K_R = {K_R:.10g}', "
-        "'Below it is no motion, at it the steady precession of least energy.', code='no-motion', "
-        "least=no_less(E_least), K_J=float(exact.K_J) + 0.0, K_R=float(exact.K_R) - 0.0)",
-    ): "the wording of an error, -0 for 0",
-    ("preparing", "arm = abs(top.a * (1 + top.a * c)) * s"): "the least of it over all theta is the same",
-    ("smooth", "q = -(B + root if B >= 0 else B + root) / 2"): "the same zeros, with more rounding",
-    (
-        "smooth",
-        "outer = -one if P(+one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)",
-    ): "the solver finds the pole to the last digit, too",
-    ("smooth", "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else solve(P, -one, here, True)"): "the same",
-    ("smooth", "if slope == 0 or (abs(here) == 1 and slope / here > 0):"): "a quotient has the sign of the product",
-    ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
-    (
-        "scene",
-        "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
-    ): "two points less of a curve",
-    ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
-    (
-        "family",
-        "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
-    ): "the first of the ordinary tops is that one",
-}
 
 
 def path_of(name):
@@ -133,13 +104,26 @@ def source_of(name):
     return path_of(name).read_text(encoding="utf-8")
 
 
-def mutants(name):
-    """(line, before, after, source) for one sign and one factor of each statement, chosen by the statement's hash."""
-    tree = ast.parse(source_of(name))
+def code_at(name, number):
+    """The hash of the function that has a line of a file."""
+    path = path_of(name).relative_to(ROOT).as_posix()
+    return next(
+        mark for function, mark in functions_in(core(), path) if function.lineno <= number <= function.end_lineno
+    )
+
+
+def groups_of(tree):
+    """The signs, and the factors, of each statement: one of each group is changed."""
     groups = {}
     for site in sites(tree):
         groups.setdefault((id(site[0]), site[1]), []).append(site)
-    for group in groups.values():
+    return [*groups.values()]
+
+
+def mutants(name):
+    """(line, before, after, source) for one sign and one factor of each statement, chosen by the statement's hash."""
+    tree = ast.parse(source_of(name))
+    for group in groups_of(tree):
         before = ast.unparse(group[0][0])
         pick = int(hashlib.sha256(before.encode()).hexdigest(), 16) % len(group)
         statement, _, node, field, value = group[pick]
@@ -216,6 +200,12 @@ def noticed_by(name, source, folder, tests, seconds):
     return told or ("no end" if os.WIFSIGNALED(status) else "an error") if status else ""
 
 
+def text():
+    """The page, of what is kept."""
+    chosen = sum(len(groups_of(ast.parse(source_of(name)))) for name in FILES)
+    return "\n".join(page(logged(), chosen)) + "\n"
+
+
 @functools.cache
 def functions_of(folder, file):
     """{name: its source} of a file of tests."""
@@ -268,12 +258,11 @@ def main():
 
     start = time.monotonic()
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
-    known = {}  # (file, before, after) -> a line of the log
-    for text in log.read_text(encoding="utf-8").splitlines() if log.exists() else ():
-        line = json.loads(text)
+    known = {}  # (hash of the function, before, after) -> a line of the log
+    for line in logged(log):
         again = chosen.again and line["by"] == "" and (line["file"], line["after"]) not in EXPLAINED
         if still_so(line, folder) and not again:
-            known[line["file"], line["before"], line["after"]] = line
+            known[line.get("code"), line["before"], line["after"]] = line
     if chosen.check and (by := noticed_by("equations", source_of("equations"), folder,
                                           [*QUICK, *ROLLS, *SLIDES, *REST_OF_APP], chosen.seconds)):  # fmt: skip
         sys.exit(f"the tests fail without any change: {by}")
@@ -282,53 +271,21 @@ def main():
     chosen_ones.sort(key=lambda one: hashlib.sha256(repr(one[:4]).encode()).hexdigest())
     for slow in (False, True):  # the quick tests notice most
         for name, line, before, after, source in chosen_ones:
-            key = name, before, after
+            code = code_at(name, line)
+            key = code, before, after
             if time.monotonic() - start > 60 * chosen.minutes:
                 break
             if key in known and not (slow and known[key]["rest"] and (name, after) not in EXPLAINED):
                 continue
             by = noticed_by(name, source, folder, tests_of(name, slow, best_of(known, name)), chosen.seconds)
             known[key] = {"file": name, "before": before, "after": after, "by": by, "test": digest_of(folder, by),
-                          "rest": not by and not slow, "commit": commit.strip(),
+                          "rest": not by and not slow, "code": code, "commit": commit.strip(),
                           "date": str(datetime.date.today())}  # fmt: skip
             with log.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(known[key], ensure_ascii=False) + "\n")
             print(f"{name}:{line} {by or 'SURVIVES'} {after}", flush=True)
-    results = {one[:1] + one[2:4]: (known[one[:1] + one[2:4]], one[1]) for one in chosen_ones
-               if one[:1] + one[2:4] in known}  # fmt: skip
     if folder == ROOT / "tests":
-        PAGE.write_text("\n".join(page(results, len(chosen_ones))) + "\n", encoding="utf-8")
-
-
-def page(results, chosen):
-    newest = max((line for line, _ in results.values()), key=lambda line: line["date"])
-    oldest = min(line["date"] for line, _ in results.values())
-    yield "# Mutants"
-    yield ""
-    yield ("Would the tests notice a wrong formula? `make proof` changes one sign and one factor (times for divided "
-           "by, a power by one) in each statement that computes something, one at a time, and runs the tests until "
-           "one fails. Iterations and tests of convergence are left out, because a wrong step there is slow or "
-           f"refused. The changes were tried from {oldest} to {newest['date']}, the last at commit {newest['commit']}; "
-           "`tests/data/mutants.jsonl` has each with its date, its commit and the test that noticed it.")  # fmt: skip
-    yield ""
-    yield f"{len(results):,} of the {chosen:,} chosen changes have been tried."
-    yield ""
-    yield "| file | changes tried | noticed | not noticed, explained | not noticed |"
-    yield "|---|---|---|---|---|"
-    for name in [*(name for name in FILES if any(key[0] == name for key in results)), "all"]:
-        rows = [(bool(line["by"]), (file, after) in EXPLAINED)
-                for (file, _, after), (line, _) in results.items() if name in (file, "all")]  # fmt: skip
-        noticed, explained = sum(seen for seen, _ in rows), sum(not seen and known for seen, known in rows)
-        share = 100 * noticed / max(len(rows), 1)
-        yield f"| {name} | {len(rows)} | {noticed} ({share:.0f} %) | {explained} | {len(rows) - noticed - explained} |"
-    yield ""
-    yield "## Not noticed"
-    yield ""
-    for (file, before, after), (found, line) in results.items():
-        if not found["by"]:
-            open_ = "the slow tests have not been run" if found["rest"] else "not explained yet"
-            reason = EXPLAINED.get((file, after), open_)
-            yield f"- `{file}`, line {line}: {reason}\n\n  ```text\n  {before}\n  {after}\n  ```"
+        PAGE.write_text(text(), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,53 +1,61 @@
 """Stores the answers of slow oracles in data/<function>.npz; make proof (pytest --remake) computes them again.
 
-The key of an answer contains the arguments and the source code of the oracles. So with new arguments or a changed
-oracle, even a changed comment in it, the answer is computed, which takes time and gives a warning.
+The key of an answer contains the arguments and a hash of the oracle with all of the tests' code that it goes through
+(fingerprint.py). So with new arguments or a changed oracle the answer is computed, which takes time and gives a
+warning; a comment, or another file for the same code, changes nothing.
 """
 
 import functools
 import hashlib
-import inspect
 import warnings
 from dataclasses import astuple, is_dataclass
 from pathlib import Path
 
 import numpy as np
+from fingerprint import Code, fingerprint
 
-FOLDER = Path(__file__).parent / "data"
+TESTS = Path(__file__).parent
+FOLDER = TESTS / "data"
 REMAKE = False  # set by conftest.py
 
 
-def kept(*oracles):
+@functools.cache
+def oracles():
+    """The code of the tests. tippe_core is none of it: an oracle does not depend on it."""
+    return Code({path.name: path for path in TESTS.glob("*.py")})
+
+
+def kept(function):
     """Decorates a function of tops, states, laws, numbers and arrays whose result is a tuple of numbers and arrays."""
+    file = FOLDER / f"{function.__name__}.npz"
+    found = {}  # the stored answers; with --remake, those that will be stored
 
-    def decorate(function):
-        file = FOLDER / f"{function.__name__}.npz"
-        found = {}  # the stored answers; with --remake, those that will be stored
+    @functools.cache
+    def code():
+        return fingerprint(function, code=oracles())
 
-        @functools.cache
-        def code():
-            return "".join(inspect.getsource(part) for part in (function, *oracles))
+    @functools.wraps(function)
+    def answered(*given, **named):
+        if not found and file.exists() and not REMAKE:
+            with np.load(file) as kept:
+                found.update(kept)
+        key = key_of(code(), text((given, sorted(named.items()))))
+        names = sorted((name for name in found if name.startswith(key)), key=lambda name: int(name.split(".")[1]))
+        if not names:
+            if not REMAKE:
+                warnings.warn(f"{function.__name__}: this answer is not stored; make proof stores it", stacklevel=2)
+            parts = {f"{key}.{i}": np.asarray(part) for i, part in enumerate(function(*given, **named))}
+            found.update(parts)
+            names = [*parts]
+            if REMAKE:
+                np.savez_compressed(file, **found)
+        return tuple(found[name][()] for name in names)
 
-        @functools.wraps(function)
-        def answered(*given, **named):
-            if not found and file.exists() and not REMAKE:
-                with np.load(file) as kept:
-                    found.update(kept)
-            key = hashlib.sha256(f"{code()} {text((given, sorted(named.items())))}".encode()).hexdigest()[:16]
-            names = sorted((name for name in found if name.startswith(key)), key=lambda name: int(name.split(".")[1]))
-            if not names:
-                if not REMAKE:
-                    warnings.warn(f"{function.__name__}: this answer is not stored; make proof stores it", stacklevel=2)
-                parts = {f"{key}.{i}": np.asarray(part) for i, part in enumerate(function(*given, **named))}
-                found.update(parts)
-                names = [*parts]
-                if REMAKE:
-                    np.savez_compressed(file, **found)
-            return tuple(found[name][()] for name in names)
+    return answered
 
-        return answered
 
-    return decorate
+def key_of(code, arguments):
+    return hashlib.sha256(f"{code} {arguments}".encode()).hexdigest()[:16]
 
 
 def text(given):

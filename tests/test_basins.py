@@ -44,11 +44,24 @@ def test_what_was_run_is_not_run_again(monkeypatch, tmp_path):
     assert (hops == np.round(tilts)[:, None]).all()
 
 
+def test_what_other_code_ran_is_shown_as_such_and_run_again(monkeypatch, tmp_path):
+    monkeypatch.setattr(basins, "ended", lambda spins, tilts, rtol: (["stem"] * len(spins), spins * 0))
+    monkeypatch.setattr(basins, "code", lambda: "before")
+    basins.mapped(tmp_path, 4)
+    assert basins.age(tmp_path).endswith("with today’s code.")
+    monkeypatch.setattr(basins, "code", lambda: "now")
+    monkeypatch.setattr(basins, "ended", lambda spins, tilts, rtol: (["upright"] * len(spins), spins * 0))
+    assert "**1 of the 1 parts are not of today’s code**" in basins.age(tmp_path)
+    assert {*basins.mapped(tmp_path, 4, wait=True)[0].flat} == {basins.WORDS.index("stem")}
+    assert {*basins.mapped(tmp_path, 4)[0].flat} == {basins.WORDS.index("upright")}
+    assert basins.age(tmp_path).endswith("with today’s code.")
+
+
 @pytest.mark.slow
 def test_the_page_says_what_was_run():
     end, found, other = basins.computed(basins.CELLS, basins.KEPT, wait=True)
     assert not (end == basins.NONE).any()
-    lines = basins.page(basins.CELLS, basins.STARTS, found, basins.last_borders(end), other)
+    lines = basins.page(basins.CELLS, basins.STARTS, found, basins.last_borders(end), basins.age(basins.KEPT), other)
     assert (basins.DOCS / "basins.md").read_text(encoding="utf-8") == "\n".join(lines) + "\n"
 
 

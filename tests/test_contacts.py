@@ -226,7 +226,7 @@ NEARLY_FLAT = [State(3.1378602723, 0.4518077358, 0.0291667914, -5.4783462842, vx
                State(np.pi - 1e-3, 0, 0, -6.0), State(np.pi - 1e-3, 0, 0, -2.0)]  # fmt: skip
 
 
-@kept(stem_body)
+@kept
 def yielding(top, state, friction, times, edge):
     """(theta,) on a table of springs."""
     return (stem_body.integrate(top, state, friction, times, edge, k=1e9, damping=20.0).theta,)

@@ -106,7 +106,7 @@ CLEAR = ALIKE / 10  # rad: nearer to the limit of a word the body may say the on
 BRIEF, LONG = 0.002, 0.02  # shares of the last tenth: contacts that yield chatter for less; a hop takes more
 
 
-@kept(stem_body)
+@kept
 def of_body(top, state, friction, t_end, edge):
     """Of the tests' own body on contacts that yield: theta at the end; when it first passes 90 degrees, and when its
     stem first touches; and of the last tenth the least and the largest theta, and the shares on ball, stem, neither."""

@@ -17,7 +17,7 @@ def samples(period, nutations=NUTATIONS):
     return np.linspace(0, nutations * float(period), min(6 * nutations, 130) + 1)
 
 
-@kept(rb)
+@kept
 def integrated(top, q, omega, times, *contact):
     motion = rb.integrate(rb.Body.of(top), q, omega, times, *contact)
     return tuple(np.asarray(part, dtype=float) for part in

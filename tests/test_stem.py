@@ -85,7 +85,7 @@ def starts(name):
         yield state, SmoothedCoulomb(mu, 10 ** rng.uniform(-1.3, 0)) if i % 2 else Coulomb(mu)
 
 
-@kept(st)
+@kept
 def witness(top, edge, state, friction, times, **table):
     """(theta,) by the oracle; for Coulomb's law the limit eps -> 0, by the straight line through two."""
     eps = table.pop("eps", 1e-4)

@@ -1,0 +1,132 @@
+"""docs/mutants.md: what the tests noticed of the changes that mutants.py tried, as far as it is of today's code.
+
+data/mutants.jsonl has a line for each change, with a hash of the function that was changed, which does not depend on
+the file in which it is. The page counts what is of functions that are as they were, and sets the rest apart.
+"""
+
+import ast
+import functools
+import json
+from pathlib import Path
+
+from fingerprint import Reading, core, name_of, short
+
+ROOT = Path(__file__).parent.parent
+LOG = ROOT / "tests" / "data" / "mutants.jsonl"
+PAGE = ROOT / "docs" / "mutants.md"
+
+# Changes that tests cannot notice, and why: (file, code after the change) -> reason.
+EXPLAINED = {
+    (
+        "wells",
+        "return NoMotionError('E', float(E), 'E >= {least:.10g} for this top, K_J = {K_J:.10g} and K_R = {K_R:.10g}', "
+        "'Below it is no motion, at it the steady precession of least energy.', code='no-motion', "
+        "least=no_less(E_least), K_J=float(exact.K_J) + 0.0, K_R=float(exact.K_R) - 0.0)",
+    ): "the wording of an error, -0 for 0",
+    ("preparing", "arm = abs(top.a * (1 + top.a * c)) * s"): "the least of it over all theta is the same",
+    ("smooth", "q = -(B + root if B >= 0 else B + root) / 2"): "the same zeros, with more rounding",
+    (
+        "smooth",
+        "outer = -one if P(+one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)",
+    ): "the solver finds the pole to the last digit, too",
+    ("smooth", "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else solve(P, -one, here, True)"): "the same",
+    ("smooth", "if slope == 0 or (abs(here) == 1 and slope / here > 0):"): "a quotient has the sign of the product",
+    ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
+    (
+        "scene",
+        "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
+    ): "two points less of a curve",
+    ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
+    (
+        "family",
+        "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
+    ): "the first of the ordinary tops is that one",
+}
+
+
+@functools.cache
+def standing():
+    """{line of a statement as Python writes it: {hash of a function that has it: (its name, the name of its file)}}."""
+    lines = {}
+    for path in core().paths.values():
+        for function, mark in functions_in(core(), path):
+            for line in ast.unparse(function).splitlines():
+                lines.setdefault(line.strip(), {})[mark] = function.name, Path(path).stem
+    return lines
+
+
+@functools.cache
+def functions_in(code, path):
+    """[(function, its hash)] of the functions of a file and the methods of its classes, without what they call."""
+    module = code.module(name_of(path))
+    own = [each for node in module.tree.body for each in (node.body if isinstance(node, ast.ClassDef) else [node])]
+    return [(each, short(Reading(code, module, each).text)) for each in own if isinstance(each, ast.FunctionDef)]
+
+
+def place_of(line):
+    """(function, file) of today's code that a line of the log is of; None if that function is no more as it was. Where
+    the log does not know the function, the statement must still be there."""
+    found = standing().get(line["before"], {})
+    return found.get(line["code"]) if line.get("code") else next(iter(found.values()), None)
+
+
+def logged(log=LOG):
+    """The last line of each change."""
+    lines = map(json.loads, log.read_text(encoding="utf-8").splitlines() if log.exists() else ())
+    return [*{(line.get("code"), line["file"], line["before"], line["after"]): line for line in lines}.values()]
+
+
+def page(lines, chosen):
+    placed = [(line, place_of(line)) for line in lines]
+    now, old = [each for each in placed if each[1]], [line for line, place in placed if not place]
+    noticed = sum(bool(line["by"]) for line, _ in now)
+    yield "# Mutants"
+    yield ""
+    yield ("Would the tests notice a wrong formula? `make proof` changes one sign and one factor (times for divided "
+           "by, a power by one) in each statement that computes something, one at a time, and runs the tests until "
+           "one fails. Iterations and tests of convergence are left out, because a wrong step there is slow or "
+           "refused. `tests/data/mutants.jsonl` has each change with its date, its commit, a hash of the function and "
+           "the test that noticed it.")  # fmt: skip
+    yield ""
+    when = dates([line for line, _ in now])
+    yield (f"**Of the {len(lines):,} changes that were tried, {len(now):,} are of today’s code, {when}, and the tests "
+           f"noticed {noticed:,} of these; {len(old):,} are of functions or statements that are no more, "
+           f"and count as not tried.** Today’s code has {chosen:,} such changes.")  # fmt: skip
+    yield ""
+    yield from table([(line, file) for line, (_, file) in now])
+    yield ""
+    yield "## Not noticed"
+    yield ""
+    for line, (function, file) in now:
+        if not line["by"]:
+            open_ = "the slow tests have not been run" if line["rest"] else "not explained yet"
+            reason = EXPLAINED.get((line["file"], line["after"]), open_)
+            yield (f"- `{function}` of `{file}`: {reason}\n\n  ```text\n  {line['before']}\n  {line['after']}\n"
+                   "  ```")  # fmt: skip
+    yield ""
+    yield "## Of code that is no more"
+    yield ""
+    yield f"What the tests noticed {dates(old)} says nothing of today’s code."
+    yield ""
+    yield "<details><summary>What it was</summary>"
+    yield ""
+    yield from table([(line, line["file"]) for line in old])
+    yield ""
+    yield "</details>"
+
+
+def dates(lines):
+    each = sorted({line["date"] for line in lines}) or ["never"]
+    return f"of {each[0]}" if len(each) == 1 else f"from {each[0]} to {each[-1]}"
+
+
+def table(rows):
+    """rows: (line of the log, file)."""
+    yield "| file | changes tried | noticed | not noticed, explained | not noticed |"
+    yield "|---|---|---|---|---|"
+    for name in [*dict.fromkeys(file for _, file in rows), "all"]:
+        seen = [(bool(line["by"]), (line["file"], line["after"]) in EXPLAINED) for line, file in rows
+                if name in (file, "all")]  # fmt: skip
+        noticed, explained = sum(by for by, _ in seen), sum(not by and known for by, known in seen)
+        share = 100 * noticed / max(len(seen), 1)
+        yield f"| {name} | {len(seen)} | {noticed} ({share:.0f} %) | {explained} | {len(seen) - noticed - explained} |"
