@@ -54,8 +54,8 @@ export function thinned(text, { most, rows, head }, numbers = null, before = 1) 
   if (more === 1) return [short, before];
   while (more * before <= last) {
     const each = more * before, kept = lines.filter((_, i) => number(i) < head || number(i) % each === 0);
-    const text = kept.join("\n");
-    if (sizeOf(text) <= most) return kept.slice(head).some(Boolean) ? [text, each] : TOO_LARGE;
+    const thin = kept.join("\n");
+    if (sizeOf(thin) <= most) return kept.slice(head).some(Boolean) ? [thin, each] : TOO_LARGE;
     more = Math.ceil(more * MORE); // its lines differ in length
   }
   return TOO_LARGE;
