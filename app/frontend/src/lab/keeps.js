@@ -43,7 +43,7 @@ export class Keeps {
     this.body = part("tbody");
     this.until = part("span", { class: "small" });
     this.element = part("section", { class: "keeps", tabindex: 0, "aria-label": texts.keeps }, // scrolls on a phone
-      part("div", { class: "titled" }, part("h2", {}, texts.keeps), part("span", { class: "small half" }, texts.keep.half), this.until),
+      part("div", { class: "titled" }, part("h2", {}, texts.keeps), part("span", { class: "half" }, texts.keep.half), this.until),
       part("table", {}, part("thead", {}, part("tr", {}, part("td"), ...texts.kept.map((word) => part("th", { scope: "col" }, word)))), this.body));
   }
 
