@@ -54,7 +54,7 @@ def test_explore_research_explore_changes_nothing(server, chromium):
 def test_a_link_with_too_little_static_friction_says_so_and_takes_the_nearest(server, chromium):
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     errors = []
-    page.on("pageerror", errors.append)
+    page.on("pageerror", lambda error: errors.append(error))
     page.goto(f"{server}?{MUJOCO}")
     wrong = page.get_by_text("Friction at rest is the larger one.")
     wrong.wait_for(timeout=PATIENCE)

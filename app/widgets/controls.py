@@ -118,8 +118,7 @@ class Dial(Bundled):
 
 
 def wording(words, wrong=False, nearest=None):
-    """The properties of a Dial for these words: HTML, but plain text for an error; nearest: the nearest possible
-    value."""
+    """The properties of a Dial for these words: HTML, but plain text for an error; nearest: what can be taken."""
     take = [] if nearest is None else [nearest, say("lab_view.view.take", value=number(nearest))]
     return {"wrong": wrong, "words": alert(words) if wrong else note(words), "nearest": take}
 
@@ -184,10 +183,8 @@ class Control:
         """value: the input as it was solved; shown: the number for the entry; bounds: those of the slider, RANGES by
         default. A message replaces the note, and then the entry keeps what was typed, and a button takes the nearest
         possible value, if that is known. The same holds after text that is not a number, until the value changes."""
-        if self._unread and (message or number(shown) == self._shown):
-            return
         wanted = (self._heard, value, shown, note, message, bounds, nearest)
-        if wanted == self._stands:
+        if wanted == self._stands or (self._unread and (message or number(shown) == self._shown)):
             return
         self._unread = False
         if message:

@@ -28,7 +28,7 @@ function exchange(value, as) {
 function setVariables(model, name, dark) {
   const [ink, , line, paper] = looks[name], { style, dataset } = document.documentElement;
   const values = {
-    "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": dark ? "#ffb4ab" : "#b3261e",
+    "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper,
     "--focus": (dark ? onDark : colours).chosen, "--link": dark ? "#8ec7f5" : "#0b5cad",
     "--accent": (dark ? onDark : colours).accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
   };
