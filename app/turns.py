@@ -3,6 +3,7 @@
 import asyncio
 import time
 from collections import OrderedDict, deque
+from contextvars import copy_context
 from weakref import WeakKeyDictionary
 
 from tornado.ioloop import IOLoop
@@ -16,8 +17,9 @@ class Turn:
     the event loop's thread; told: is called with how many are served before it, while that changes."""
 
     def __init__(self, turns, whose, go, told):
-        self.whose, self.go, self.since = whose, go, time.monotonic()
-        self._turns, self._tell, self._last, self.begun = turns, told, None, False
+        self.whose, self.since, self.begun = whose, time.monotonic(), False
+        self._turns, self._go, self._told, self._last = turns, go, told, None
+        self._context = copy_context()  # in that of another page Panel would take this one's changes for that page's
 
     def begin(self):
         """Whether the turn is still to be had. If so, it lasts until rest() or done()."""
@@ -35,11 +37,16 @@ class Turn:
         """Gives it up, unless it has begun; returns whether it did."""
         return self._turns.drop(self)
 
+    def come(self):
+        """Says that it is time."""
+        self._context.run(self._go, self)
+
     def tell(self, before):
-        if self._tell is not None and (self._last is None or (before < self._last and (
+        """Says how many are served before it, if that is news."""
+        if self._told is not None and (self._last is None or (before < self._last and (
                 before <= EXACT or before <= NEWS * self._last))):  # fmt: skip
             self._last = before
-            self._tell(before)
+            self._context.run(self._told, before)
 
 
 class Turns:
@@ -82,7 +89,7 @@ class Turns:
 
     def give(self, turn):
         self._limit = IOLoop.current().call_later(TAKEN, self.end, turn)
-        turn.go(turn)
+        turn.come()
 
     def taken(self, turn):
         if self._now is turn and self._limit is not None:

@@ -84,7 +84,7 @@ def page(chromium):
 def hold(page, name):
     """Holds back a script of the page until the function that is returned is called."""
     held = []
-    page.route(re.compile(re.escape(name)), held.append)
+    page.route(re.compile(re.escape(name)), lambda route: held.append(route))
 
     def go():
         wait(page, lambda: held)
