@@ -83,15 +83,21 @@ def page(chromium):
 
 def hold(page, name):
     """Holds back a script of the page until the function that is returned is called."""
-    held = []
-    page.route(re.compile(re.escape(name)), lambda route: held.append(route))
+    held, free = [], []
+
+    def came(route):
+        if free:
+            route.continue_()
+        else:
+            held.append(route)
 
     def go():
         wait(page, lambda: held)
-        page.unroute_all()
+        free.append(True)
         for route in held:
             route.continue_()
 
+    page.route(re.compile(re.escape(name)), came)
     return go
 
 
