@@ -60,7 +60,7 @@ def test_a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
 
 def test_the_top_beside_is_at_the_start_of_the_run_that_was_clicked(page):
     """Also without playing it, and after the one before has been played."""
-    pill, play = page.locator(".film .pill"), page.locator(".film button")
+    pill, play = page.locator(".film .pill"), page.locator(".film > button")
     for tilt in (25, 10):
         page.mouse.click(*page.evaluate(PIXEL, ["maps", 44.0, tilt]))
         wait(page, lambda: page.evaluate(BEAD)[0] == 42.5)

@@ -55,12 +55,14 @@ export class Answer {
     this.sign(true);
     this.dialog.showModal();
     this.larger.focus();
+    this.draw(); // now: a pointer that is already over it reads the new scale
   }
 
   shrink() {
     this.dialog.replaceWith(this.element);
     this.sign(false);
     this.larger.focus();
+    this.draw();
   }
 
   // What the button does now.
