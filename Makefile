@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js app/frontend/src/*/*.js app/model/*.json)
 
-.PHONY: serve kernels check quick test durations proof source pythons lock validation docs bench image browser proxy redis
+.PHONY: serve kernels check quick test durations long ages proof source pythons lock validation docs bench image browser proxy redis
 
 serve: kernels
 	$(BIN)/python -m app --address localhost --show
@@ -23,13 +23,24 @@ check: .venv/test .venv/frontend
 quick: .venv/test kernels
 	$(PYTEST) -m "not served and not slow"
 
-# The whole suite on this Python.
+# All tests on this Python, except those that are slow by nature.
 test: .venv/test kernels source browser proxy redis
 	$(PYTEST)
 
 # The whole suite, and writes tests/durations.json.
 durations: .venv/test kernels browser proxy redis
 	$(PYTEST) --write-durations
+
+# What is slow by nature: proxies with logins, 10,000 messages that no page sends, installs on every Python. Nightly, and
+# before a large piece of work is done.
+long: .venv/test kernels browser proxy redis
+	$(PYTEST) --long -m long
+	$(BIN)/python tests/test_fuzz.py 10000
+	$(BIN)/python tests/pythons.py
+
+# Writes anew what the pages of docs/ say of the age of each result, after a change of code; computes nothing.
+ages: .venv/test
+	$(BIN)/python tests/ages.py
 
 # Linters, type checkers and the JavaScript tests; node is the one that comes with the build.
 FRONTEND = tests/frontend
@@ -59,13 +70,16 @@ lock:
 	$(BIN)/uv pip compile --quiet --no-annotate --no-header --python-version 3.11 --resolution lowest-direct \
 		--output-file locks/lowest.txt pyproject.toml
 
-# Slow results that are kept in the repository: those of the slow oracles, docs/validation.md, the mutants (many hours; can
-# be stopped and continued), and the basins of the paper's top (hours too).
+# Slow results that are kept in the repository, each with a hash of the code that it comes from: those of the slow oracles,
+# the tops on film, docs/validation.md, the mutants (many hours; can be stopped and continued), and the basins of the
+# paper's top (hours too).
 proof: .venv/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
+	$(BIN)/python tests/measured_proof.py
 	$(BIN)/python tests/validation.py
 	$(BIN)/python tests/basins.py
 	$(BIN)/python tests/mutants.py --check
+	$(BIN)/python tests/ages.py
 
 # Writes docs/validation.md from the results of the tests, with the whole accuracy map: about ten minutes.
 validation: .venv/test kernels

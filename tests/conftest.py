@@ -27,9 +27,19 @@ settings.load_profile("repeatable")
 def pytest_addoption(parser):
     parser.addoption("--remake", action="store_true", help="compute the slow oracles' answers again and store them")
     parser.addoption("--write-durations", action="store_true", help="store how long each file of tests takes")
+    parser.addoption("--long", action="store_true", help="run also those that are slow by nature: `make long`")
     parser.addoption(
         "--shortest-first", action="store_true", help="run the shortest files of tests first, not the longest"
     )
+
+
+def pytest_collection_modifyitems(config, items):
+    if config.getoption("--long"):
+        return
+    items[:], long = (
+        [item for item in items if bool(item.get_closest_marker("long")) is is_long] for is_long in (False, True)
+    )
+    config.hook.pytest_deselected(items=long)
 
 
 def pytest_configure(config):

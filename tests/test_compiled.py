@@ -355,7 +355,7 @@ def test_no_kernel_starts_threads_or_loosens_arithmetic():
 
 @pytest.mark.served
 @pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
-@pytest.mark.parametrize("command", ["app", "panel serve app"])
+@pytest.mark.parametrize("command", ["app", pytest.param("panel serve app", marks=pytest.mark.long)])
 def test_a_server_that_finds_no_kernels_answers_while_they_are_compiled(command, tmp_path):
     """The file that says that everything is stored is missing: otherwise this would take minutes."""
     log, here = tmp_path / "log", kept.folder()
@@ -394,9 +394,9 @@ def runs(pid):
 @pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 @pytest.mark.parametrize(("command", "end"), [
-    ("app", signal.SIGTERM), ("app", signal.SIGKILL), ("app --workers 2", signal.SIGINT),
-    ("app --workers 2", signal.SIGKILL), ("panel serve app", signal.SIGINT),
-    ("panel serve app", signal.SIGKILL)])  # fmt: skip
+    ("app --workers 2", signal.SIGKILL), *(pytest.param(*each, marks=pytest.mark.long) for each in (
+        ("app", signal.SIGTERM), ("app", signal.SIGKILL), ("app --workers 2", signal.SIGINT),
+        ("panel serve app", signal.SIGINT), ("panel serve app", signal.SIGKILL)))])  # fmt: skip
 def test_what_compiles_for_a_server_ends_with_it(command, end, tmp_path):
     told = ["env", f"NUMBA_CACHE_DIR={tmp_path / 'kernels'}", sys.executable, "-m", *command.split()]
     many = 2 if "2" in command else 1

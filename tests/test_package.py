@@ -123,7 +123,7 @@ def test_the_archives_are_as_an_index_wants_them(archives):
 
 
 @pytest.mark.served
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_wheel_in_an_empty_environment_starts_from_any_directory_and_a_visitor_comes(archives, tmp_path):
     """Without node, a compiler or the sources. Kernels run as Python here; another test compiles them."""
     [wheel] = archives.glob("*.whl")

@@ -17,7 +17,7 @@ from test_faults import has_come_back, set_K_J
 from visiting import Visit, free_port
 from watching import LOST
 
-pytestmark = [pytest.mark.served, pytest.mark.slow]
+pytestmark = [pytest.mark.served, pytest.mark.long]
 DEPLOY = Path(__file__).parent.parent / "deploy"
 
 NGINX = """
