@@ -231,7 +231,7 @@ class Lesson {
     time.play(false);
     Object.assign(time, { end: record.asked ? step.end : step.before, events: step.events ?? [], chosen: step.speed ?? 0 });
     this.beginning = !still && !record.asked;
-    this.frame.scrollIntoView?.({ block: "nearest" });
+    this.frame.scrollIntoView?.({ block: "start" });
     time.seek(record.asked || still ? time.end : 0);
   }
 
