@@ -2,19 +2,18 @@
 
 data/links.json keeps them. A link that somebody has put into a script of his course must open the same for ever, so
 what stands there is never made anew; this adds the links that it is given. If the page is built otherwise, only
-opened() is to follow.
+opened() is to follow, and met.py, which says what the newer links of version 2 open.
 """
 
 import json
 import sys
-from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from unittest.mock import patch
 
 import numpy as np
 import panel as pn
 from bokeh.document import Document
+from met import kept, opens
 from panel.io.state import set_curdoc
 
 from app import text
@@ -23,9 +22,7 @@ from app.model.lesson import lesson
 from app.model.start import PLANE
 from app.page import page
 from app.state.codecs import Body
-from app.state.keep import Keep
-from app.state.names import NAMES, of
-from app.widgets import rooms
+from app.state.names import NAMES
 
 ROLL = "?v=1&tab=roll"  # what an address without a query opened, and contained, before the Lab existed
 TABS = ("roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")  # by their old numbers
@@ -69,27 +66,24 @@ def in_effect(settings):
 
 
 def kept_links():
-    """{link: what it opened}, as it was written."""
+    """{link: what it opened}, as it was written; without those that met.py describes."""
+    return {link: what for link, what in written().items() if "settings" in what}
+
+
+def met_links():
+    """{link: what was met there}, of those that met.py describes."""
+    return {link: what for link, what in written().items() if "settings" not in what}
+
+
+def written():
+    """All that the file contains."""
     return json.loads(FILE.read_text(encoding="utf-8"))
-
-
-@contextmanager
-def kept():
-    """A list of (Keep, owner, {parameter: Name}) of all that a page keeps; a tab is made when it is asked for."""
-    parts, add = [], Keep.add
-
-    def noted(keep, owner, *rest, **named):
-        add(keep, owner, *rest, **named)
-        parts.append((keep, owner, of(type(owner).__name__)))
-
-    with patch.object(Keep, "add", noted), patch.object(rooms.Place, "ask", rooms.Place.fill):
-        yield parts
 
 
 def opened(link):
     """What a link opens, of numbers, words and truth values: every setting by its name in a link; the language; the
     top, its body in SI and R, the motion and its turning points in units of R, M, g; what is said of the link."""
-    with set_curdoc(Document()), kept() as parts:
+    with set_curdoc(Document()), kept(link) as parts:
         pn.state.location.search = link if link.strip("?") else ROLL
         page.page()
         if not parts:
@@ -130,8 +124,8 @@ def plain(codec, value):
 
 
 def main(links):
-    found = kept_links()
-    found |= {link: opened(link) for link in links if link not in found}
+    found = written()
+    found |= {link: opens(link) for link in links if link not in found}
     lines = (f"{json.dumps(link)}: {json.dumps(what, ensure_ascii=False)}" for link, what in found.items())
     FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
 
