@@ -8,6 +8,7 @@ import pytest
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from serving import served
 from visiting import wait
+from watching import LOST
 from wire import run
 
 from app.server.door import Door
@@ -19,7 +20,6 @@ from app.widgets.waiting import REASONS, waiting
 
 SECRET = b"secret"
 HERE = "() => window.Bokeh?.documents?.length > 0"
-LONG = 120_000  # ms
 
 
 def refused(name, expiration=FRESH, sessions=(), sockets=(), stopping=False, limits=None):
@@ -74,9 +74,9 @@ def test_a_page_on_a_slow_line_has_time():
 
 
 @pytest.fixture
-def page(chromium):
+def page(chromium, page_errors):
+    page_errors.allow(f"{LOST}|Failed to load Bokeh|Error rendering Bokeh items")
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
-    page.set_default_timeout(LONG)
     yield page
     page.close()
 
@@ -134,7 +134,7 @@ def test_a_page_for_which_there_was_no_room_comes_when_there_is(page, chromium, 
         page.goto(server.url, wait_until="commit")
         other = chromium.new_page()
         other.goto(server.url)
-        other.wait_for_function(HERE, timeout=LONG)
+        other.wait_for_function(HERE)
         go()
         page.get_by_text(say("main.server.full", "en")).wait_for()
         assert page.get_by_role("button", name=say("main.server.now", "en")).is_visible()
