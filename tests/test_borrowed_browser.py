@@ -75,6 +75,7 @@ def beside():
 def of_bokeh(chromium, document):
     page = chromium.new_page(viewport={"width": 500, "height": 400})
     page.add_init_script(COUNTING)
+    page.route(f"{HERE}/**", lambda route: route.fulfill(body="", content_type="text/javascript"))  # Panel's scripts
     page.route(f"{HERE}/", lambda route: route.fulfill(body=file_html(document, INLINE), content_type="text/html"))
     return page
 
