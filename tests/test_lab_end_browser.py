@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from lab_page import TIME, UNIT, come, one_visit
+from lab_page import TIME, UNIT, arrival, come
 from playwright.sync_api import expect
 
 from app.model.arrival import ARRIVAL
@@ -15,12 +15,11 @@ pytestmark = pytest.mark.served
 END = 12.0  # s: of the arrival's life
 NOW = f"{TIME} * {UNIT}"
 
-visit = pytest.fixture(one_visit, scope="module")
-
 
 @pytest.fixture
-def page(visit):
-    return visit.page
+def page(server, chromium):
+    with arrival(server, chromium, reduced_motion="no-preference") as page:
+        yield page
 
 
 def run_from_its_start(page):
@@ -119,7 +118,7 @@ def test_on_a_phone_the_last_fold_can_be_pressed(chromium, server, ghost):
     for fold in ("Top: stem, ballast", "Numbers"):
         page.locator(".main-content").evaluate("page => page.scrollTo(0, page.scrollHeight)")
         summary = page.locator("summary", has_text=fold)
-        summary.tap(timeout=10_000)
+        summary.tap()
         expect(summary.locator("..")).to_have_attribute("open", "")
     page.locator(".main-content").evaluate("page => page.scrollTo(0, page.scrollHeight)")
     row, dock = page.locator(".numbers tr").last, page.locator(".dock")

@@ -154,6 +154,7 @@ def test_the_source_archive_has_all_that_git_has(unpacked):
 
 
 @pytest.mark.served
+@pytest.mark.long
 def test_the_source_archive_passes_its_tests_of_files(unpacked):
     """Tests of files that are not programs: the settings of proxies and clusters, the docs, the README."""
     done = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_readme.py",
