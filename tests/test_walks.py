@@ -202,7 +202,9 @@ def test_a_room_is_told_of_scenes_by_the_pacer_alone(roomy, name):
         assert {*followers(house.pacer)} - before == FOLLOW[name]
     assert {*hearers(house.explorer)} - heard == HEARS.get(name, set())
     assert {fn for parameter, fn in heard if parameter == "scene"} == {"Pacer._on_scene"}
-    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells"}  # the head shows the top and the table
+    # the head shows the top and the table, and the page the room of the table
+    assert {(name, fn) for name, fn in heard if fn == "page"} == {("table", "page")}
+    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells", "page"}
     known = [(kind.__name__, type(each).__name__) for kind, each in given if isinstance(each, (Explorer, House))]
     assert known == [("Pacer", "Explorer")]  # between requests and the Explorer
 
