@@ -194,3 +194,12 @@ def test_whatever_ends_the_first_run_ends_the_wait(result):
     except OverflowError:
         assert isinstance(result, OverflowError)  # which the page's own notice and the log have
     assert not planes.busy and Room(planes).says(planes.refusal.messages)
+
+
+def test_the_lab_has_the_refused_values_of_a_link_and_the_nearest():
+    explorer, _ = of_link({"mu_k": "-1", "patch": "-2"}, explores=True)
+    lab = Lab(start=explorer)
+    lab.show()
+    assert lab.refused == {"mu": -1.0, "patch": -2.0} and lab.refused.keys() == lab.scene.messages.keys()
+    lab.ask(**lab.nearest)
+    assert not lab.refused and not lab.scene.messages and (explorer.mu, explorer.patch) == (0.01, 0.01)

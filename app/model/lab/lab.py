@@ -157,6 +157,7 @@ class Lab(param.Parameterized):
         self._run: Run | None = None
         self._shown = self.begun = self._again = self.rests = False
         self._messages: dict[str, str] = {}
+        self.refused: dict[str, object] = {}  # the values of a link, or of another room, that cannot be
         self.nearest: dict[str, float] = {}  # what can be, of each input that was refused as a number
         self._good, self._back = (
             FIRST,
@@ -187,7 +188,7 @@ class Lab(param.Parameterized):
         """Sets the inputs that are valid; each of the others keeps its value, and the scene's messages say why. A new
         toy, spin or tilt makes the start one by hand."""
         faults = {name: fault(name, value) for name, value in inputs.items()}
-        self._messages = {name: said for name, said in faults.items() if said}
+        self._messages, self.refused = {name: said for name, said in faults.items() if said}, {}
         self.nearest = {name: near for name in self._messages if (near := nearest(name, inputs[name])) is not None}
         self._set_start({name: value for name, value in inputs.items() if not faults[name]})
         self._tell()
@@ -262,7 +263,10 @@ class Lab(param.Parameterized):
         """Computes the present inputs, now or when the present run is done."""
         if not self._shown:
             return
-        faults = {name: said for name in self.INPUTS if (said := fault(name, getattr(self.start, name), POSSIBLE))}
+        values = {name: getattr(self.start, name) for name in self.INPUTS}
+        faults = {name: said for name, value in values.items() if (said := fault(name, value, POSSIBLE))}
+        self.refused |= {name: values[name] for name in faults}
+        self.nearest |= {name: near for name in faults if (near := nearest(name, values[name])) is not None}
         try:
             self.start.body  # noqa: B018
         except TopError as error:

@@ -252,7 +252,7 @@ class LabTab:
             "law": ""
             if start.law == "contact"
             else spelled(say("lab.inputs.law", law=listed("planes.law")[start.law])),
-            "refused": {name: self._tried.get(name) for name in messages},
+            "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
             "was": self._differ(scene, scene, start),
