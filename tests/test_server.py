@@ -325,11 +325,23 @@ async def say_two_things():
     for title in ("first", "second"):
         panel.io.document.schedule_write_events(document, [connection], [TitleChangedEvent(document, title)])
         if title == "first":
-            await asyncio.sleep(0)
+            await until_true(lambda: writing)
             for each in writing:
                 each.set_result(None)
-    await asyncio.sleep(0.1)
-    return [title for title in ("first", "second") if any(f'"{title}"' in text for text in written)]
+
+    def came():
+        return [title for title in ("first", "second") if any(f'"{title}"' in text for text in written)]
+
+    await until_true(lambda: len(came()) == 2)
+    return came()
+
+
+async def until_true(condition, looks=2000):
+    """Lets the event loop go on until a condition is true, or gives up."""
+    for _ in range(looks):
+        if condition():
+            return
+        await asyncio.sleep(0.001)
 
 
 def test_what_is_said_while_something_else_is_written_comes_too(monkeypatch):
