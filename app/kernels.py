@@ -39,7 +39,7 @@ def compile_beside() -> None:
         log.info("kernels run as Python, some hundred times slower than compiled: %s", reason)
         return
     if folder := kept.folder():
-        threading.Thread(target=_use, args=(folder,), name="kernels in use", daemon=True).start()
+        threading.Thread(target=_use, args=(folder,), daemon=True).start()
     if not kept.complete(folder):
         log.info("no compiled kernels are kept for this version and processor: they are compiled beside the server, "
                  "which computes in Python until then. `python -m tippe_core` does it ahead")  # fmt: skip
