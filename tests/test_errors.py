@@ -41,7 +41,7 @@ ROOT = Path(__file__).parent.parent
 OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 PAPER = TruncatedSphere.paper()
 # Parts of formulas in the allowed ranges that are not English: units, quantities, classes of the core.
-NOTATION = {"rad", "kg", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", "seconds", "str", "bytes", "in",
+NOTATION = {"rad", "kg", "mm", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", "seconds", "str", "bytes", "in",
             "high", "low", "rtol", "nudge", "pi", "well", "radius", "height", "rounding", "times"}  # fmt: skip
 
 

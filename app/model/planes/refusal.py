@@ -34,7 +34,7 @@ def refused(error: TopError, settings: Settings) -> tuple[dict[str, str], dict[s
     error = for_reader(error, settings.scales)
     name = CONTROL.get(error.name, error.name)
     if name == "patch":
-        error = TopError("patch", settings.patch, "patch >= 0 (mm)")
+        error = TopError("patch", settings.patch, ">= 0 mm")
     if settings.rolling is not None and name in ("spin", "tilt", "slip"):
         return {"by": told(error)}, {}
     near = _nearest(name, error, settings)
