@@ -70,7 +70,7 @@ def constants(explorer):
 def test_no_input_is_kept_twice():
     """No model that shows the start has an input of its own, and no name in an address belongs to one."""
     for model in (Lab, Planes):
-        assert {*model.param} <= {"name", "busy", "picture", "scene", "ends"}
+        assert {*model.param} <= {"name", "busy", "picture", "refusal", "scene", "ends"}
     assert {row.owner for row in ROWS}.isdisjoint({"Lab", "Planes", "Start"})
     start = {row.parameter for row in ROWS if row.owner == "Explorer"}
     assert {*Start.param} - {"name"} <= start
