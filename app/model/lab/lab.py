@@ -159,10 +159,8 @@ class Lab(param.Parameterized):
         self._messages: dict[str, str] = {}
         self.refused: dict[str, object] = {}  # the values of a link, or of another room, that cannot be
         self.nearest: dict[str, float] = {}  # what can be, of each input that was refused as a number
-        self._good, self._back = (
-            FIRST,
-            {"table": TABLE, "slip": 1.0, "patch": PATCH} | arrives(),
-        )  # and the inputs that set the Start back to it
+        self._good = FIRST
+        self._back = {"table": TABLE, "slip": 1.0, "patch": PATCH} | arrives()  # what sets the Start back to it
         self._strip: Key | None = None
         self._seen: Inputs | None = None  # the inputs at the last call of _follow()
         super().__init__()  # type: ignore[no-untyped-call]  # of param
