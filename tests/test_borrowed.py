@@ -7,6 +7,7 @@ import inspect
 import json
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import SimpleNamespace
 from unittest.mock import Mock
@@ -102,6 +103,12 @@ def test_the_test_finds_what_is_borrowed():
 # --- of a server
 
 
+def run(coroutine):
+    """What a coroutine returns. Playwright leaves a loop running in the thread of the tests, so it has another."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, coroutine).result()
+
+
 def test_a_session_works_in_the_servers_own_thread():
     """1. What is passed to an executor is done when the call returns; Bokeh's own executor, if it has one, is
     unchanged."""
@@ -118,7 +125,7 @@ def test_a_session_works_in_the_servers_own_thread():
             await loop.run_in_executor(None, lambda: 1 / 0)
         return threading.get_ident()
 
-    [mine] = {asyncio.run(work())}
+    [mine] = {run(work())}
     assert where and set(where) == {mine}
     has = "executor" in inspect.signature(ApplicationContext).parameters
     assert has == hasattr(ApplicationContext(SimpleNamespace()), "_executor")
@@ -186,7 +193,7 @@ def test_what_fills_a_figure_comes_behind_the_figure(monkeypatch):
         monkeypatch.setattr(
             ServerSession, "_send_pending_patches", borrowed.behind(ServerSession._send_pending_patches)
         )
-    (brought, _), filled = asyncio.run(show_and_fill())  # a message that is made later contains the later number
+    (brought, _), filled = run(show_and_fill())  # a message that is made later contains the later number
     assert brought and filled == (False, True)
 
 
@@ -311,7 +318,7 @@ def test_what_a_session_does_later_goes_through_the_method_that_is_counted(monke
         document.add_timeout_callback(list, 1)
         session.destroy()
 
-    asyncio.run(later())
+    run(later())
     assert len(seen) == 2
 
 
