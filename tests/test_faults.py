@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-import visitors
 from serving import answers, served, until
 from visiting import Visit, free_port
 from watching import LOST as LOST_SERVER
@@ -127,12 +126,6 @@ def test_a_visitor_who_stops_reading_holds_up_nobody(steady):
     assert run(stall(steady.url)) == "OK"
 
 
-def test_visitors_who_come_together_and_leave_one_by_one(steady, capsys):
-    """They move sliders and open all tabs, in two languages; whatever is refused or fails is reported, or is in the
-    log."""
-    assert visitors.main(steady.url, 2) == 0, capsys.readouterr().out
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
 def test_a_full_disk_stops_nobody(tmp_path):
     port = free_port()
@@ -187,6 +180,7 @@ haproxy = pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the p
 
 
 @haproxy
+@pytest.mark.long
 def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_its_own(page, tmp_path):
     with replicas(tmp_path) as (one, two, root):
         Visit(page, f"{root}/app")
@@ -203,6 +197,7 @@ def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_it
 
 
 @haproxy
+@pytest.mark.long
 def test_behind_the_proxy_a_replica_that_stops_sends_its_pages_to_the_other(page, tmp_path):
     with replicas(tmp_path) as (one, two, root):
         Visit(page, f"{root}/app")

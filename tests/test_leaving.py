@@ -96,9 +96,9 @@ def test_these_are_all_orders():
     assert len(ORDERS) == 15
 
 
-@pytest.mark.parametrize(("order", "stays"), ORDERS.values(), ids=ORDERS)
+@pytest.mark.parametrize(("order", "stays"), [*ORDERS.values()][::3], ids=[*ORDERS][::3])
 def test_who_stays_keeps_his_page_in_whichever_order_the_others_come_and_go(here, idle, order, stays):
-    """Shows each part of the page, after three of the orders."""
+    """In every third order, each with another part of the page."""
     run(come_and_go(here, order, stays, [*ORDERS.values()].index((order, stays)) % (1 + len(TABS))), PATIENCE)
 
 

@@ -43,11 +43,11 @@ def said(page):
     return page.get_by_role("status").filter(has_text="rev/s,").inner_text()
 
 
-def test_a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
+def a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
     page.mouse.click(*page.evaluate(PIXEL, ["maps", 44.0, 6.0]))
+    x, y = 42.5, 1 + 39 * 1.5 / 9  # the middle of its cell
+    wait(page, lambda: page.evaluate(BEAD) == pytest.approx([x, y], abs=1e-9))
     page.get_by_role("status").filter(has_text="stands on its stem").wait_for()
-    x, y = page.evaluate(BEAD)
-    assert abs(x - 42.5) < 1e-9 and abs(y - (1 + 39 * 1.5 / 9)) < 1e-9  # the middle of its cell
     page.mouse.move(*page.evaluate(PIXEL, ["maps", x, y]))
     page.mouse.down()
     for share in (0.3, 0.6, 1.0):
@@ -58,7 +58,7 @@ def test_a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
     wait(page, lambda: entry.input_value().startswith("6."))
 
 
-def test_the_top_beside_is_at_the_start_of_the_run_that_was_clicked(page):
+def the_top_beside_is_at_the_start_of_the_run_that_was_clicked(page):
     """Also without playing it, and after the one before has been played."""
     pill, play = page.locator(".film .pill"), page.locator(".film > button")
     for tilt in (25, 10):
@@ -74,7 +74,7 @@ def test_the_top_beside_is_at_the_start_of_the_run_that_was_clicked(page):
         wait(page, lambda: not pill.inner_text().startswith("0.00 s"))
 
 
-def test_arrow_keys_move_the_bead_and_the_top_beside_is_that_of_its_run(page):
+def arrow_keys_move_the_bead_and_the_top_beside_is_that_of_its_run(page):
     x, y = page.evaluate(BEAD)
     page.get_by_role("img", name="Map: the end of each run").focus()
     page.keyboard.press("ArrowRight")
@@ -85,7 +85,7 @@ def test_arrow_keys_move_the_bead_and_the_top_beside_is_that_of_its_run(page):
     page.wait_for_function("() => window.__tippe.tops('map').length == 1")
 
 
-def test_what_cannot_be_is_said_and_the_map_stays(page):
+def what_cannot_be_is_said_and_the_map_stays(page):
     enter(page, "Across, to", "3")
     page.get_by_role("alert").filter(has_text="spin_from = 5").wait_for()
     assert page.evaluate(SIDE) == 9
@@ -93,7 +93,7 @@ def test_what_cannot_be_is_said_and_the_map_stays(page):
     page.get_by_role("alert").filter(has_text="spin_from").wait_for(state="detached")
 
 
-def test_a_disagreement_can_be_gone_to(page):
+def a_disagreement_can_be_gone_to(page):
     before = page.evaluate(BEAD)
     page.get_by_role("button", name="Show one such run").first.click()
     wait(page, lambda: page.evaluate(BEAD) != before)
@@ -106,7 +106,7 @@ RANGE = """() => {
 }"""
 
 
-def test_a_box_looks_closer_and_undo_goes_back(page):
+def a_box_looks_closer_and_undo_goes_back(page):
     before = page.evaluate(RANGE)
     page.get_by_label("The run at, Across", exact=True).fill("45")
     page.get_by_label("The run at, Across", exact=True).press("Enter")
@@ -171,7 +171,7 @@ def test_a_finger_moves_the_bead_and_scrolls_elsewhere(server, chromium):
     phone.close()
 
 
-def test_it_fits_a_phone(page):
+def it_fits_a_phone(page):
     page.set_viewport_size({"width": 390, "height": 844})
     page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
 
@@ -198,7 +198,7 @@ WORD = """(word) => {
 }"""
 
 
-def test_a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page):
+def a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page):
     page.set_viewport_size({"width": 1400, "height": 1000})
     box = page.locator(".tippe-readout:visible", has_text=listed("glossary.terms.nudge.is", "en"))
 
@@ -208,3 +208,15 @@ def test_a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page)
     box.wait_for()
     page.mouse.move(0, 0)
     box.wait_for(state="detached")
+
+
+def test_one_visit(page):
+    """One visit, step by step."""
+    arrow_keys_move_the_bead_and_the_top_beside_is_that_of_its_run(page)
+    a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page)
+    the_top_beside_is_at_the_start_of_the_run_that_was_clicked(page)
+    what_cannot_be_is_said_and_the_map_stays(page)
+    a_disagreement_can_be_gone_to(page)
+    a_box_looks_closer_and_undo_goes_back(page)
+    a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page)
+    it_fits_a_phone(page)

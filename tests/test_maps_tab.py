@@ -24,6 +24,8 @@ ROOT = Path(__file__).parent.parent
 
 @pytest.fixture(autouse=True)
 def nothing_kept(monkeypatch):
+    """Maps of few cells, none of which is stored."""
+    monkeypatch.setitem(Map.__init__.__kwdefaults__, "cells", 6)
     monkeypatch.setattr(kept, "_path", lambda asked: None)
     kept._memory.clear()
 
@@ -245,7 +247,7 @@ def test_the_run_of_the_bead_goes_to_the_lab():
 
 
 def test_the_map_that_ships_is_what_is_computed():
-    shipped = kept.recall(Map())
+    shipped = kept.recall(Map(cells=48))
     assert shipped.finest
     i, j = np.array([3, 20, 40, 44]), np.array([44, 30, 10, 25])
     fresh = slide_many_of(Map(), [(shipped.x[b], shipped.y[a]) for a, b in zip(i, j, strict=True)])

@@ -37,6 +37,7 @@ def test_an_example_is_what_its_program_makes(name):
         assert abs(one.values - other.values).max() < 0.011
 
 
+@pytest.mark.long
 @pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_a_stored_fit_of_an_example_is_what_its_program_finds(name):
@@ -209,30 +210,16 @@ def opened(server, chromium, query="?tab=measure", width=1400):
 
 
 @pytest.mark.served
-def test_what_was_found_at_once_can_be_taken_home(server, chromium):
-    """The example's fit is stored, so it is there while the page is still being drawn."""
-    page, errors = opened(server, chromium)
-    page.get_by_text("This top slipped.").wait_for()
-    expect(page.get_by_role("button", name="Take home")).to_be_enabled()
-    page.get_by_role("button", name="Take home").click()
-    with page.expect_download() as brought:
-        page.get_by_text("Residuals (CSV)").click()
-    assert len(Path(brought.value.path()).read_text("utf-8").splitlines()) == 1 + 2 * 216
-    page.get_by_role("button", name="Example: it rolls").click()
-    page.get_by_role("heading", name="This top rolled.").wait_for()
-    for name, is_enabled in (("Take home", True), ("Fit", True), ("Stop", False)):
-        expect(page.get_by_role("button", name=name, exact=True)).to_be_enabled(enabled=is_enabled)
-    page.close()
-    assert not errors
-
-
-@pytest.mark.served
 def test_a_saved_film_and_a_link_open_in_another_browser(server, chromium):
     """With the fit that was saved with it, which is not made again."""
     page, errors = opened(server, chromium)
     page.get_by_text("This top slipped.").wait_for()
     numbers = page.locator("table").first.inner_text()
+    expect(page.get_by_role("button", name="Take home")).to_be_enabled()  # the fit is stored
     page.get_by_role("button", name="Take home").click()
+    with page.expect_download() as brought:
+        page.get_by_text("Residuals (CSV)").click()
+    assert len(Path(brought.value.path()).read_text("utf-8").splitlines()) == 1 + 2 * 216
     with page.expect_download() as brought:
         page.get_by_text("The film, to be opened again").click()
     film = Path(brought.value.path()).read_text("utf-8")
@@ -261,21 +248,18 @@ DROP = """text => { const brought = new DataTransfer();
 
 
 @pytest.mark.served
-def test_an_example_is_fitted_in_the_page(server, chromium):
-    page, errors = opened(server, chromium, width=390)
-    page.get_by_role("button", name="Example: it rolls").click()
-    page.get_by_text("This top rolled.").wait_for()
-    assert page.evaluate("document.documentElement.scrollWidth") == 390
-    page.close()
-    assert not errors
-
-
-@pytest.mark.served
-def test_a_table_is_dropped_and_a_hand_pulls_its_start(server, chromium):
+def test_an_example_is_fitted_on_a_phone_a_table_is_dropped_and_a_hand_pulls_its_start(server, chromium):
     """Dropped anywhere on the page. A later file that is not a table gives a message and changes nothing; then the
     dashed line is dragged."""
     page, errors = opened(server, chromium)
     page.get_by_text("Example: it slips").first.wait_for()
+    page.set_viewport_size({"width": 390, "height": 900})
+    page.get_by_role("button", name="Example: it rolls").click()
+    page.get_by_text("This top rolled.").wait_for()
+    for name, is_enabled in (("Take home", True), ("Fit", True), ("Stop", False)):
+        expect(page.get_by_role("button", name=name, exact=True)).to_be_enabled(enabled=is_enabled)
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    page.set_viewport_size({"width": 1400, "height": 900})
     page.evaluate(DROP, example("rolls").replace("# Nobody", "# Somebody"))
     page.get_by_text("your own data").wait_for()
     page.evaluate(DROP, "a letter\nto nobody\n")

@@ -63,7 +63,7 @@ def put_on(page, table):
     page.get_by_role("radio", name=table, exact=True).click()
 
 
-def test_the_first_look_says_that_only_sliding_turns_it_over(page, first):
+def the_first_look_says_that_only_sliding_turns_it_over(page, first):
     page.get_by_text(re.compile(r"^rough: never turns over: in rolling")).wait_for()
     page.get_by_text(re.compile(r"^smooth: never turns over")).wait_for()
     page.get_by_text(re.compile(r"^sliding: leans on ball and stem: 118\.8° at 5 s; past 90° at 2\.\d+ s")).wait_for()
@@ -75,7 +75,7 @@ def test_the_first_look_says_that_only_sliding_turns_it_over(page, first):
         assert (min(values), max(values)) == pytest.approx((theta.min(), theta.max()), abs=1e-6)
 
 
-def test_three_tops_side_by_side_go_by_one_clock(page, first):
+def three_tops_side_by_side_go_by_one_clock(page, first):
     put_on(page, "All three")
     page.wait_for_function(f"{TOPS}.length == 3 && {TOPS}.every(top => top.count > 0)")
     for moves in (True, False):
@@ -102,7 +102,7 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     page.get_by_text(re.compile("Friction law in use: smooth plane")).wait_for()
 
 
-def test_there_is_no_well_while_the_stem_touches(page, first):
+def there_is_no_well_while_the_stem_touches(page, first):
     """The bead disappears with it; before that both are there."""
     put_on(page, "Ordinary")
     well = f"{MODELS}.find((m) => m.name == 'planes-well' && m.renderers)"
@@ -116,7 +116,7 @@ def test_there_is_no_well_while_the_stem_touches(page, first):
         assert shown == [beads]
 
 
-def test_a_preset_sets_the_top_the_start_and_the_law(page):
+def a_preset_sets_the_top_the_start_and_the_law(page):
     choose(page, "Hangs halfway")
     page.get_by_text(re.compile(r"^sliding: leans: 109\.\d° at 25 s.*; past 90° at 1\.99 s")).wait_for()
     page.get_by_text(re.compile("Friction law in use: viscous")).wait_for()
@@ -130,7 +130,7 @@ def test_a_preset_sets_the_top_the_start_and_the_law(page):
     page.get_by_text(re.compile("^sliding: leans on ball and stem")).wait_for()
 
 
-def test_a_bad_value_is_said_and_nothing_is_lost(page):
+def a_bad_value_is_said_and_nothing_is_lost(page):
     put(page, "tilt", 200)
     page.get_by_text(re.compile("tilt = 200 is not possible")).wait_for()
     assert page.get_by_text(re.compile("^sliding: leans on ball and stem")).count()
@@ -138,7 +138,7 @@ def test_a_bad_value_is_said_and_nothing_is_lost(page):
     page.get_by_text(re.compile("tilt = 200 is not possible")).wait_for(state="detached")
 
 
-def test_a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
+def a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
     put(page, "eps", 1e-8)  # so stiff that it takes several seconds
     stop = page.get_by_role("button", name="Stop", exact=True)
     stop.wait_for()
@@ -151,7 +151,7 @@ def test_a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
     page.get_by_text(re.compile("Stopped at")).wait_for(state="detached")
 
 
-def test_a_click_on_the_map_goes_there(page):
+def a_click_on_the_map_goes_there(page):
     page.locator("[data-figure=planes-map]").evaluate(IN_SIGHT)
     body = next(body for body in PRESETS if body.name == "Loaded sphere")
     page.mouse.click(*page.evaluate(PIXEL, ["planes-map", body.shape.top.a, body.shape.top.I1 / body.shape.top.I3]))
@@ -162,7 +162,7 @@ def test_a_click_on_the_map_goes_there(page):
     assert page.evaluate(COLUMN, ["planes-map", "y"])[-1] == pytest.approx([0.8], abs=0.005)
 
 
-def test_of_two_quick_clicks_on_the_map_the_second_counts(page):
+def of_two_quick_clicks_on_the_map_the_second_counts(page):
     """Bokeh calls it a doubletap, though it is elsewhere."""
     page.locator("[data-figure=planes-map]").evaluate(IN_SIGHT)
     one, other = (page.evaluate(PIXEL, ["planes-map", *place]) for place in ((0.6, 0.7), (0.3, 1.0)))
@@ -170,3 +170,15 @@ def test_of_two_quick_clicks_on_the_map_the_second_counts(page):
     page.mouse.click(*other)
     here = f"place => ['x', 'y'].every((c, i) => Math.abs(({COLUMN})(['planes-map', c]).at(-1)[0] - place[i]) < 5e-3)"
     page.wait_for_function(here, arg=[0.3, 1.0])
+
+
+def test_one_visit(page, first):
+    """One visit, step by step."""
+    the_first_look_says_that_only_sliding_turns_it_over(page, first)
+    three_tops_side_by_side_go_by_one_clock(page, first)
+    there_is_no_well_while_the_stem_touches(page, first)
+    a_bad_value_is_said_and_nothing_is_lost(page)
+    a_long_run_shows_how_far_it_is_and_can_be_stopped(page)
+    a_preset_sets_the_top_the_start_and_the_law(page)
+    a_click_on_the_map_goes_there(page)
+    of_two_quick_clicks_on_the_map_the_second_counts(page)

@@ -140,22 +140,3 @@ def test_a_page_for_which_there_was_no_room_comes_when_there_is(page, chromium, 
         assert page.get_by_role("button", name=say("main.server.now", "en")).is_visible()
         other.close()
         page.wait_for_function(HERE)
-
-
-@pytest.mark.served
-def test_it_does_so_also_on_the_server_for_one_person(page, server):
-    """`panel serve app` gives no reason that begins with a name."""
-    sockets = []
-
-    def first_only(socket):
-        sockets.append(socket)
-        if len(sockets) == 1:
-            socket.close(code=1000)
-        else:
-            socket.connect_to_server()
-
-    page.route_web_socket(re.compile("/ws"), first_only)
-    page.goto(server, wait_until="commit")
-    page.get_by_text(say("main.server.lost", "en")).wait_for()
-    page.get_by_role("button", name=say("main.server.now", "en")).click()
-    page.wait_for_function(HERE)

@@ -165,11 +165,9 @@ async def closes(page, first, second):
     await hears(second, say("teach.student.closed"))
 
 
-@pytest.mark.parametrize("kind", ["a file", "a Redis"])
-def test_two_servers_are_one_class(kind, tmp_path, request):
-    """Phones at one worker, the teacher at the other: phones follow from question to question, see no answer before it
+def test_two_servers_are_one_class(redis, tmp_path):
+    """In a Redis; a file is that of two workers above. Phones at one server, the teacher at the other: phones follow from question to question, see no answer before it
     is shown, and no vote but their own. The class continues with the teacher's address, and ends when it is closed."""
-    place = request.getfixturevalue("redis") if kind == "a Redis" else tmp_path / "votes"
 
     async def lesson(one, other, end_of_one):
         page = await teacher(one.url)
@@ -208,8 +206,8 @@ def test_two_servers_are_one_class(kind, tmp_path, request):
         again = await teacher(other.url, key)
         await hears(again, say("teach.vote.over"))
 
-    with ExitStack() as first, served(tmp_path / "other", votes=place) as other:
-        one = first.enter_context(served(tmp_path / "one", votes=place))
+    with ExitStack() as first, served(tmp_path / "other", votes=redis) as other:
+        one = first.enter_context(served(tmp_path / "one", votes=redis))
         run(lesson(one, other, first.close), 240)
         assert "Traceback" not in one.log + other.log
 
