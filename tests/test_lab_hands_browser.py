@@ -1,121 +1,280 @@
-"""Moving, typing and dragging in the Lab, in Chromium."""
+"""The Lab alone in Chromium: hands on its bar, its fields, its axis and its pictures, and how it looks."""
 
 import re
-from urllib.parse import parse_qs, urlsplit
 
+import numpy as np
 import pytest
-from lab_page import TIME, TOPS, UNIT, arrival, entry, line, pause, put
+from axe_playwright_python.base import AXE_SCRIPT
+from components import *  # noqa: F403
+from lab_page import TIME, TOPS, UNIT, entry, line, pause, put
+from PIL import Image
 from playwright.sync_api import expect
+from test_axe import CONTRAST, violations
+
+from app.model.arrival import ARRIVAL
+from app.model.lab.run import whole_on
+from app.share.parts import Photo
 
 pytestmark = pytest.mark.served
 
+END = 12.0  # s: of the arrival's life
+NOW = f"{TIME} * {UNIT}"
+SEEK = "(bar, t) => { bar.value = t; bar.dispatchEvent(new Event('input')) }"
+LOOK = "look => { document.documentElement.dataset.look = look; window.dispatchEvent(new CustomEvent('tippe:look')) }"
+PHONE = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
 
-@pytest.fixture
-def page(server, chromium):
-    with arrival(server, chromium) as page:
-        yield page
+
+def slid(page, name, value):
+    """Moves a slider."""
+    page.locator(f"#lab-{name}").evaluate(SEEK, value)
 
 
-def test_the_head_of_the_bar_is_dragged_from_a_rest(page):
-    pause(page)
-    box = page.locator(".strip .head").bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+def middle(part):
+    box = part.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_the_bar_is_dragged_from_a_rest_and_moved_by_keys(lab):
+    page = lab().page
+    time, head = page.get_by_role("slider", name="Time"), page.locator(".strip .head")
+    before, (x, y) = head.bounding_box(), middle(head)
     page.mouse.move(x, y)
     page.mouse.down()
     page.wait_for_timeout(500)  # the rest itself
     page.mouse.move(x + 80, y - 30)
     page.mouse.move(x + 200, y - 60)
-    moved = page.locator(".strip .head").bounding_box()
-    assert moved["x"] - box["x"] == pytest.approx(200, abs=2)
+    assert head.bounding_box()["x"] - before["x"] == pytest.approx(200, abs=2)
     page.mouse.up()
     ends = page.locator(".strip .axis").first.bounding_box()
-    end = float(page.get_by_role("slider", name="Time").get_attribute("max"))
-    expected = end * (x + 200 - ends["x"]) / ends["width"]
-    page.wait_for_function(f"t => Math.abs({TIME} * {UNIT} - t) < 0.02", arg=expected)
-
-
-def test_the_bar_is_moved_by_keys(page):
-    slider = page.get_by_role("slider", name="Time")
-    slider.press("Home")
+    expected = float(time.get_attribute("max")) * (x + 200 - ends["x"]) / ends["width"]
+    page.wait_for_function(f"t => Math.abs({NOW} - t) < 0.02", arg=expected)
+    time.press("Home")
     page.wait_for_function(f"{TIME} == 0")
-    expect(slider).to_have_attribute("aria-valuetext", re.compile("^0.00 s, tilt 6 degrees"))
-    slider.press("ArrowRight")
+    expect(time).to_have_attribute("aria-valuetext", re.compile("^0.00 s, tilt 6 degrees"))
+    time.press("ArrowRight")
     page.wait_for_function(f"{TIME} > 0")
 
 
-def test_what_is_selected_to_be_typed_over_stays_selected_while_answers_come(page):
-    """Otherwise what is typed next would be appended to it."""
+def test_what_is_typed_or_selected_stays_while_answers_come(lab):
+    """What is typed next would otherwise be appended to what was selected."""
+    found = lab()
+    page, tilt = found.page, entry(found.page, "Tilt, in degrees")
+    tilt.fill("7,2")
+    slid(page, "spin", 29)
+    page.get_by_text("→ 29.0 rev/s").first.wait_for()
+    assert found.lab.start.spin == 29 and tilt.input_value() == "7,2"
     put(page, "Tilt, in degrees", "half")
-    page.get_by_role("alert").filter(has_text="half is not a number").wait_for()
-    tilt = entry(page, "Tilt, in degrees")
+    alert = page.get_by_role("alert").filter(has_text="half")
+    alert.filter(has_text="half is not a number").wait_for()
     tilt.select_text()
-    page.locator("#lab-spin").evaluate("""(slider) => {
-        slider.value = 29.5
-        slider.dispatchEvent(new Event("input"))
-    }""")
-    page.wait_for_function("location.search.includes('spin=29.5')")
+    slid(page, "spin", 29.5)
+    page.get_by_text("→ 29.5 rev/s").first.wait_for()
     assert tilt.evaluate("(field) => field.value.slice(field.selectionStart, field.selectionEnd)") == tilt.input_value()
     page.keyboard.insert_text("5,73")
     tilt.press("Enter")
-    page.get_by_role("alert").filter(has_text="half").wait_for(state="hidden")
+    alert.wait_for(state="hidden")
     assert tilt.input_value() == "5.7"
 
 
-def test_what_is_typed_is_not_written_over_while_answers_come(page):
-    tilt = entry(page, "Tilt, in degrees")
-    tilt.fill("7,2")
-    page.locator("#lab-spin").evaluate("""(slider) => {
-        slider.value = 29
-        slider.dispatchEvent(new Event("input"))
-    }""")
-    page.wait_for_function("location.search.includes('spin=29')")
-    assert tilt.input_value() == "7,2"
-    page.get_by_text("→ 29.0 rev/s").first.wait_for()
-
-
-def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
-    pause(page)
+def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(lab):
+    found = lab()
+    page, start = found.page, found.lab.start
     page.get_by_role("slider", name="Time").press("Home")
-    handle = page.get_by_role("slider", name="Tilt of the axis at the start")
+    handle, field = page.get_by_role("slider", name="Tilt of the axis at the start"), entry(page, "Tilt, in degrees")
     page.wait_for_function(f"{TOPS}[0].quaternion[1] == 0 && {TOPS}[0].quaternion[2] == 0")
-    box = handle.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    x, y = middle(handle)
     page.mouse.move(x, y)
     page.mouse.down()
     page.wait_for_timeout(500)  # the rest itself
-    page.mouse.move(x - 60, y + 40, steps=3)
-    page.wait_for_function("location.search.includes('tilt=')")
-    pulled = float(parse_qs(urlsplit(page.url).query)["tilt"][0])
-    assert pulled > 10
-    assert float(entry(page, "Tilt, in degrees").input_value()) == pytest.approx(pulled, abs=0.06)
-    page.mouse.move(x + 90, y + 60, steps=3)  # beyond the vertical
-    page.wait_for_function("new URLSearchParams(location.search).get('tilt') == '0'")
-    page.mouse.move(x - 60, y + 40, steps=3)
-    page.wait_for_function(f"location.search.includes('tilt={pulled:g}')")
+    page.mouse.move(x - 60, y + 40)
+    found.until(lambda: start.tilt > 10)
+    pulled = start.tilt
+    expect(field).to_have_value(f"{pulled:.1f}")
+    page.mouse.move(x + 90, y + 60)  # beyond the vertical
+    found.until(lambda: start.tilt == 0)
+    page.mouse.move(x - 60, y + 40)
+    found.until(lambda: start.tilt == pulled)
     page.mouse.up()
     page.get_by_role("button", name="Pause").wait_for()
     pause(page)
     page.get_by_role("slider", name="Time").press("Home")
     handle.press("ArrowRight")
-    page.wait_for_function(f"!location.search.includes('tilt={pulled:g}')")
+    found.until(lambda: start.tilt != pulled)
 
 
-def test_spin_it_is_the_stronger_the_longer_it_is_held(page):
+def test_spin_it_is_the_stronger_the_longer_it_is_held_and_a_slider_asks_at_every_move(lab):
+    found = lab()
+    page, spin = found.page, entry(found.page, "Spin, in turns a second")
+    put(page, "Spin, in turns a second", 30)
+    found.until(lambda: found.lab.start.spin == 30)
+    before, slider = line(page), page.locator("#lab-spin")
+    for _ in range(12):
+        slider.press("ArrowLeft")
+    assert spin.input_value() == "28.8"
+    found.until(lambda: found.lab.start.spin == 28.8)
+    page.wait_for_function("([line, before]) => line.getAttribute('points') != before",
+                           arg=[page.locator(".strip .rest").first.element_handle(), before])  # fmt: skip
     page.get_by_role("button", name="Spin it").hover()
     page.mouse.down()
     page.get_by_role("button", name="50 rev/s").wait_for()
     page.mouse.up()
-    page.wait_for_function("location.search.includes('spin=50')")
+    found.until(lambda: found.lab.start.spin == 50)
     page.get_by_role("button", name="Pause").wait_for()
 
 
-def test_a_slider_asks_at_every_move_and_the_newest_is_shown(page):
+def test_the_run_before_stays_pale_until_it_is_dismissed(lab):
+    found = lab()
+    page = found.page
+    put(page, "Spin, in turns a second", 22)
+    page.get_by_text("Spin: 28.6 rev/s → 22.0 rev/s").wait_for()
+    page.get_by_text("Before: Spin 28.6 rev/s").wait_for()
+    for picture in (".strip", ".answer"):
+        expect(page.locator(f"{picture} .then")).to_have_count(1)
+    page.get_by_role("button", name="Go back to before").click()
+    found.until(lambda: round(found.lab.start.spin, 1) == 28.6)
+    expect(page.locator(".strip .then")).to_have_count(0)
     put(page, "Spin, in turns a second", 30)
-    page.wait_for_function("location.search.includes('spin=30')")
-    before = line(page)
-    slider = page.locator("#lab-spin")
-    for _ in range(12):
-        slider.press("ArrowLeft")
-    assert entry(page, "Spin, in turns a second").input_value() == "28.8"
-    page.wait_for_function("!location.search.includes('spin=30') && location.search.includes('spin=28.8')")
-    assert line(page) != before
+    page.get_by_role("button", name="Forget the run before").click()
+    page.get_by_text("Before: Spin").wait_for(state="hidden")
+    expect(page.locator(".strip .then")).to_have_count(0)
+
+
+def run_from_its_start(page):
+    page.get_by_role("button", name="again").click()
+    page.wait_for_function(f"{NOW} > 0.05 && {NOW} < {END} / 2")
+
+
+def stays_at_its_end(page):
+    """It pauses there; that it could go on would show within some frames of the screen."""
+    page.get_by_role("button", name="Play", exact=True).wait_for()
+    for _ in range(3):
+        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        assert page.evaluate(NOW) == pytest.approx(END, abs=0.01)
+    assert page.locator(".clock").inner_text() == "12.00 s"
+
+
+def test_its_life_goes_faster_where_nothing_happens_and_stays_at_its_end_however_it_got_there(lab):
+    page = lab(reduced_motion="no-preference").page
+    time, speed = page.get_by_role("slider", name="Time"), page.get_by_role("combobox", name="Speed")
+    assert float(time.get_attribute("max")) == pytest.approx(END, abs=0.02)
+    speeds = set()
+    stages = (2.2, "It stands on its stem"), (7.0, "It comes off its stem"), (11.5, "The table grips it: it rolls.")
+    for t, said in stages:
+        time.evaluate(SEEK, t)
+        page.get_by_text(said).first.wait_for()
+        speeds.add(speed.input_value())
+    page.get_by_text("now real speed").wait_for()
+    assert "1" in speeds
+    stays_at_its_end(page)
+    run_from_its_start(page)
+    time.press("End")  # a key, while it plays
+    stays_at_its_end(page)
+    page.get_by_role("button", name="Play", exact=True).click()  # from the start
+    page.wait_for_function(f"{NOW} > 0.05 && {NOW} < {END} / 2")
+    box, (_, y) = page.locator(".strip .plot").bounding_box(), middle(page.locator(".strip .plot"))
+    page.mouse.move(box["x"] + 100, y)
+    page.mouse.down()
+    for share in (0.5, 0.9, 1.02):  # lets go beyond the edge
+        page.mouse.move(box["x"] + share * box["width"], y)
+    page.wait_for_function(f"Math.abs({NOW} - {END}) < 0.01")
+    page.mouse.up()
+    stays_at_its_end(page)
+
+
+# How each kind of line and area of the picture is painted.
+PAINT = """plot => Object.fromEntries(
+    [...plot.querySelectorAll(":scope > svg :is(polyline, polygon, path, line, circle, text)")].map((e) => {
+        const {stroke, fill, strokeWidth, strokeDasharray, opacity, fontWeight} = getComputedStyle(e)
+        const paint = [stroke, fill, strokeWidth, strokeDasharray, opacity, fontWeight].join()
+        return [`${e.tagName} ${e.getAttribute("class") ?? ""}`, paint]
+    }))"""
+# Whether the words of the height stand in its area, in the colour of the ground.
+IN_ITS_AREA = """(answer) => {
+    const word = answer.querySelector(".word.inside"), area = answer.querySelector(".lifts")
+    if (!word || !area) return false
+    const [inner, outer] = [word, area].map((part) => part.getBoundingClientRect())
+    return getComputedStyle(word).fill === getComputedStyle(word.closest(".frame")).backgroundColor
+        && outer.top < inner.top && inner.bottom < outer.bottom
+}"""
+
+
+def test_a_picture_that_is_enlarged_is_painted_as_before_and_has_numbers_at_the_pointer(lab):
+    page = lab().page
+    plot, larger = page.locator(".answer .plot"), page.get_by_role("button", name="Large, over the whole window")
+    page.locator("summary", has_text="Numbers").click()
+    page.get_by_role("slider", name="Time").press("Home")
+    page.get_by_role("row", name="tilt 5.7°").wait_for()
+    for tab in ("Path", "Spin", "Energy"):
+        page.locator(".answer").get_by_role("tab", name=tab).click()
+        small, height = plot.evaluate(PAINT), plot.bounding_box()["height"]
+        larger.click()
+        close = page.get_by_role("button", name="Small again")
+        expect(close).to_be_focused()
+        expect(close).to_have_text("×")
+        assert plot.bounding_box()["height"] > 1.5 * height, tab
+        large = plot.evaluate(PAINT)
+        assert small.keys() <= large.keys() and all(paint == small.get(kind, paint) for kind, paint in large.items())
+        if tab == "Energy":
+            page.get_by_role("dialog").get_by_role("heading", name="Where does the height come from?").wait_for()
+            page.mouse.move(*middle(plot))
+            page.locator(".readout", has_text="turned into heat").wait_for()
+        close.click()
+        expect(larger).to_be_focused()
+        assert plot.evaluate(PAINT) == small, tab
+
+
+def test_the_height_is_read_on_its_own_area_where_the_energy_leaves_no_room_over_it(lab):
+    page = lab({"spin": 4}).page
+    for look in ("light", "dark"):
+        page.evaluate(LOOK, look)
+        page.wait_for_function(IN_ITS_AREA, arg=page.locator(".answer").element_handle())
+
+
+def test_three_tops_have_one_clock_what_they_keep_is_counted_to_it_and_a_photo_has_them_all(lab):
+    """Jellett's constant is nearly kept while the top turns over, and lost at the end of its life."""
+    found = lab({"table": "three"})
+    page = found.show(Photo())
+    page.wait_for_function(f"{TOPS}.filter((top) => top.count && top.pictures).length == 3")
+    motion, time = whole_on(*ARRIVAL), page.get_by_role("slider", name="Time")
+    jellett = motion.trajectory.jellett / motion.start.top.I1
+    cell = page.locator(".keeps tbody tr").first.get_by_role("cell")
+    assert page.locator(".keeps").get_by_role("row").count() == 4
+    for t, word in ((1.3, "nearly kept"), (END, "lost")):
+        time.evaluate(SEEK, t)
+        page.get_by_text(f"from 0 s to {t:.2f} s", exact=True).wait_for()
+        assert cell.nth(0).inner_text().startswith("lost as heat")
+        said, first, last = re.fullmatch(r"([a-z ]+?)\s*([\d.]+) → ([\d.]+)", cell.nth(1).inner_text()).groups()
+        assert said == word and float(first) == pytest.approx(jellett[0], abs=0.005)
+        assert float(last) == pytest.approx(np.interp(t, motion.seconds, jellett), abs=0.01)
+    page.wait_for_function(f"new Set({TOPS}.filter((top) => top.count).map((top) => top.t.toFixed(3))).size == 1")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="PNG", exact=True).click()
+    picture = Image.open(download.value.path()).convert("RGB")
+    assert picture.width == pytest.approx(2400, abs=9) and picture.height < picture.width / 2
+    for third in range(3):
+        part = picture.crop((third * 800, 0, third * 800 + 800, picture.height))
+        assert len(part.resize((80, 80)).getcolors(10_000)) > 300, third  # a top
+
+
+# What a finger touches that is less than 44 px high.
+SMALL = """lab => [...lab.querySelectorAll("button, select, input:not(.num, .at)")].filter((e) => e.checkVisibility())
+    .map((e) => [e.className || e.textContent, e.getBoundingClientRect().height]).filter(([, high]) => high < 43.9)"""
+
+
+@pytest.mark.parametrize("like", [{}, PHONE], ids=["1400", "phone"])
+def test_axe_finds_nothing_and_a_finger_finds_all(lab, like):
+    found = lab(**like)
+    page = found.page
+    assert not page.evaluate(f"{TOPS}[0].playing")  # it does not start by itself
+    if like:
+        assert page.locator(".lab").evaluate(SMALL) == []
+    page.evaluate(AXE_SCRIPT)
+    for table in ("Ordinary", "All three"):
+        page.get_by_role("radio", name=table).click()
+        page.locator(f".lab[data-table={'three' if ' ' in table else 'ordinary'}]").wait_for()
+        page.evaluate(LOOK, "light")
+        assert violations(page) == [], table
+        page.evaluate(LOOK, "dark")
+        assert violations(page, CONTRAST) == [], table
+    page.get_by_role("button", name="Spin all three").click()
+    page.wait_for_function(f"{TOPS}.some((top) => top.playing && top.t > 0)")

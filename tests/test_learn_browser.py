@@ -1,12 +1,13 @@
-"""Learn in Chromium, used by a student and by a teacher."""
+"""Learn in Chromium: the lesson alone, and a class with a big screen and two phones on the served page."""
 
 import re
-from contextlib import ExitStack
 from html import unescape
+from pathlib import Path
 
+import panel
 import pytest
+from components import *  # noqa: F403
 from playwright.sync_api import expect
-from serving import served
 from visiting import Visit
 from watching import LOST
 
@@ -14,6 +15,7 @@ from app.model.explorer import Explorer
 from app.model.lesson import lesson, parts
 from app.model.roll import derivation
 from app.state.keep import read
+from app.tabs.learn.learn import Learn
 from app.tabs.learn.teach import link
 from app.tabs.learn.worksheet import worksheet
 from app.text import listed, say, speaking
@@ -21,22 +23,7 @@ from app.text import listed, say, speaking
 pytestmark = pytest.mark.served
 
 
-@pytest.fixture
-def browser(chromium):
-    """A browser context with reduced motion, because drawing by software slows everything."""
-    context = chromium.new_context(reduced_motion="reduce")
-    yield context
-    context.close()
-
-
-def opened(browser, address, width=1400, height=900):
-    page = browser.new_page()
-    page.set_viewport_size({"width": width, "height": height})
-    return Visit(page, address, whole=False)
-
-
-def closed(visit):
-    visit.page.close()
+PHONE = {"viewport": {"width": 390, "height": 900}, "has_touch": True}
 
 
 def told(step, language):
@@ -66,9 +53,28 @@ def watched(page, language="en"):
     page.locator(".side .told .big").wait_for()
 
 
-def test_the_derivation_is_live(browser, server):
-    visit = opened(browser, server + "?tab=learn&learn=derivation")
-    page = visit.page
+@pytest.fixture
+def learn(alone):
+    """learn(language="en", **like) gives the Alone with the lesson, which belongs to the Learn `.learn`."""
+
+    def open_(language="en", **like):
+        found = alone(**like)
+        with speaking(language):
+            found.learn = Learn(Explorer().scene, lab=lambda: found.told.append("lab"))
+        found.page.evaluate("language => { document.documentElement.lang = language }", language)
+        found.show(found.learn.lesson)
+        return found
+
+    return open_
+
+
+def test_the_derivation_is_live(alone):
+    learn, found = Learn(Explorer().scene), alone()
+    learn.section = "derivation"
+    learn.top.height = 400
+    [katex] = Path(panel.__file__).parent.glob("dist/bundled/katex/**/katex.min.js")
+    found.page.add_script_tag(path=katex)  # which the page has of Panel
+    page = found.show(learn.top, *learn.derivation.place.objects)
     sides = page.locator(".lines .line .sides").first
     sides.locator("b").first.wait_for()
     # the numbers go with the clock; at the turning point itself that of F_x would be the root of a rounding
@@ -86,44 +92,37 @@ def test_the_derivation_is_live(browser, server):
     page.locator(".lines .line").nth(4).locator("[data-symbol=omega]").first.hover()
     page.locator(".tip").get_by_text(listed("derivation.symbols.omega")).wait_for()
     page.wait_for_function("__tippe.tops('learn').some((top) => top.highlight == 'ω')")
-    page.locator(".lines .line").last.scroll_into_view_if_needed()
-    expect(page.get_by_role("button", name=say("browser.Top3D.forward"), exact=True)).to_be_in_viewport()
-    closed(visit)
 
 
-@pytest.mark.parametrize(("language", "width"), [("en", 1400), ("de", 390)])
-def test_a_walk_through_the_lesson(browser, server, language, width):
+@pytest.mark.parametrize(("language", "like"), [("en", {}), ("de", PHONE)], ids=["en", "de, phone"])
+def test_a_walk_through_the_lesson(learn, language, like):
     """Each step shows its top before it asks, answers nothing by itself, and tells what its own run did once that has
     been seen; an answer is still there when one comes back."""
-    visit = opened(browser, f"{server}?tab=learn&lang={language}", width, 900)
-    page = visit.page
+    found = learn(language, **like)
+    page, scene = found.page, Explorer().scene
     crumbs = page.locator(".crumbs button")
     for place, step in enumerate(lesson.LESSON):
         page.get_by_role("heading", name=say(f"learn.{step.name}.question", language)).wait_for()
         watch = page.get_by_role("button", name=say("learn.view.watch", language))
         watch.wait_for()
         # on a phone the two arms stand where the top does, before the question, and the circles beside the dot
-        seen = "section.picture" if step.picture == "arms" and width < 600 else ".stage"
-        box = page.locator(seen).bounding_box()
-        assert box["y"] >= -1 and box["y"] + box["height"] <= page.locator(".question").bounding_box()["y"] + 900 * (
-            width > 600
-        )
+        seen = "section.picture" if step.picture == "arms" and like else ".stage"
+        box, question = page.locator(seen).bounding_box(), page.locator(".question").bounding_box()
+        assert box["y"] >= -1 and (not like or box["y"] + box["height"] <= question["y"]), step.name
         assert page.locator(".ways").is_visible() == (step.name == "way")
         assert watch.is_disabled() and page.locator(".option :checked").count() == 0
         page.locator(".bar .covered").wait_for()
-        answer = step.answer(Explorer().scene)
-        words = listed(f"learn.{step.name}.options", language)
-        guess = next(key for key in step.asks.options if key != answer.truth) if place % 2 else answer.truth
+        truth, words = step.answer(scene).truth, listed(f"learn.{step.name}.options", language)
+        guess = next(key for key in step.asks.options if key != truth) if place % 2 else truth
         page.get_by_role("radio", name=words[guess]).check(force=True)
         assert page.locator(".side .told .big").count() == 0
         watched(page, language)
-        verdict = say(f"learn.view.{'right' if guess == answer.truth else 'off'}", language)
+        verdict = say(f"learn.view.{'right' if guess == truth else 'off'}", language)
         assert page.locator(".side .told .big").inner_text() == verdict
-        found = plain_text(page.locator(".side .told").inner_text())
-        for part in told(step, language) if step.name != "yours" else []:
-            assert part in found
-        if width < 600:
-            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        said = plain_text(page.locator(".side .told").inner_text())
+        assert step.name == "yours" or all(part in said for part in told(step, language)), step.name
+        if like:
+            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), step.name
             box = page.locator(".stage").bounding_box()
             assert box["y"] >= -1 and box["y"] + box["height"] <= 900, "the top is in sight beside the question"
         if step is not lesson.LESSON[-1]:
@@ -133,38 +132,51 @@ def test_a_walk_through_the_lesson(browser, server, language, width):
     assert page.locator(".end li").all_inner_texts() == learned
     crumbs.nth(1).click()
     page.locator(".side .told .big").get_by_text(say("learn.view.off", language)).wait_for()
-    page.wait_for_function("location.search.includes('step=way')")
+    found.until(lambda: found.learn.step == "way")
     crumbs.last.click()
     page.get_by_role("button", name=say("learn.view.lab", language)).click()
-    page.wait_for_function("!location.search.includes('tab=learn')")
-    closed(visit)
+    found.until(lambda: "lab" in found.told)
 
 
-@pytest.mark.parametrize("name", [step.name for step in lesson.THEORY])
-def test_what_is_for_theorists(browser, server, name):
-    visit, step = opened(browser, f"{server}?tab=learn&step={name}"), lesson.OF_NAME[name]
-    page = visit.page
-    page.get_by_role("button", name=say(f"learn.{name}.title")).wait_for()
-    if isinstance(step.asks, parts.Choice):
-        page.get_by_role("radio").first.check(force=True)
-    else:  # a slider counts once a hand has moved it
-        slider = page.get_by_role("slider", name=say("learn.view.number_none"))
-        assert page.get_by_role("button", name=say("learn.view.watch")).is_disabled()
-        slider.press("PageUp")
-    watched(page)
-    found = plain_text(page.locator(".side .told").inner_text())
-    for part in told(step, "en"):
-        assert part in found
-    closed(visit)
+def test_what_is_for_theorists(learn):
+    found = learn()
+    page = found.page
+    for step in lesson.THEORY:
+        found.learn.step = step.name
+        found.send()
+        page.get_by_role("button", name=say(f"learn.{step.name}.title")).wait_for()
+        if isinstance(step.asks, parts.Choice):
+            page.get_by_role("radio").first.check(force=True)
+        else:  # a slider counts once a hand has moved it
+            slider = page.get_by_role("slider", name=say("learn.view.number_none"))
+            assert page.get_by_role("button", name=say("learn.view.watch")).is_disabled()
+            slider.press("PageUp")
+        watched(page)
+        said = plain_text(page.locator(".side .told").inner_text())
+        assert all(part in said for part in told(step, "en")), step.name
 
 
-@pytest.fixture
-def phones(chromium):
-    """Two browser contexts, each with its own storage."""
-    contexts = [chromium.new_context(reduced_motion="reduce", has_touch=True) for _ in range(2)]
-    yield contexts
-    for context in contexts:
-        context.close()
+# As in a browser whose websocket is opening again: what is sent then throws.
+REFUSES = """window.refuses = () => { throw new DOMException("Still in CONNECTING state.", "InvalidStateError") }
+window.lost = !window.dispatchEvent(new CustomEvent("tippe:lost", {cancelable: true}))"""
+
+
+def test_a_lesson_goes_on_where_nothing_can_be_sent(learn):
+    """It says that the votes wait, and the page does not reload."""
+    found = learn()
+    page = found.page
+    page.locator(".crumbs button").nth(1).wait_for()
+    page.evaluate(REFUSES)
+    page.keyboard.press("p")
+    page.locator(".lesson.present .board").wait_for()
+    page.evaluate(REFUSES)
+    assert page.evaluate("lost")
+    page.locator(".warning").get_by_text(say("teach.room.lost")).wait_for()
+    for step in lesson.SIX:
+        page.get_by_role("heading", name=say(f"learn.{step.name}.question")).wait_for()
+        revealed(page, step)
+        page.keyboard.press("ArrowRight")
+    assert not found.told
 
 
 def presented(page):
@@ -186,16 +198,16 @@ def fits(page):
     page.set_viewport_size(before)
 
 
-def ends(page):
-    """The run plays, and the time is dragged to its end: tops drawn for the first time start at the beginning. On a
-    busy machine it may already have ended by itself."""
+def revealed(page, step):
+    """Reveals a step by its key, and drags the time to its end."""
+    page.keyboard.press("r")
     bar = page.get_by_role("slider", name=say("learn.view.time"), exact=True)
-    page.wait_for_function(
-        "([bar, t]) => bar.value !== t || bar.getRootNode().querySelector('.board .told > *')",
-        arg=[bar.element_handle(), bar.input_value()],
-    )
+    page.wait_for_function("([bar, end]) => Number(bar.max) >= end - 0.01",
+                           arg=[bar.element_handle(), step.end])  # fmt: skip
     bar.focus()
     bar.press("End")
+    truth = listed(f"learn.{step.name}.options")[step.answer(Explorer().scene).truth]
+    page.locator(".letters .true").get_by_text(truth).wait_for()
 
 
 def sent(page, answer, language=None):
@@ -205,79 +217,82 @@ def sent(page, answer, language=None):
     page.get_by_text(say("teach.room.change", language)).wait_for()
 
 
-def test_a_class_with_two_phones(browser, phones, server):
+def opened(page, address, width, height):
+    page.set_viewport_size({"width": width, "height": height})
+    return Visit(page, address, whole=False).page
+
+
+def connected(socket, sockets):
+    """The first socket of a page is connected; once another one has been noted, there is no network."""
+    if len(sockets) < 2:
+        sockets.append((socket, socket.connect_to_server()))
+    else:
+        socket.close()
+
+
+def test_a_class_with_two_phones_that_goes_on_where_the_network_does_not(chromium, server, page_errors):
     """They follow the big screen from question to question; the votes are seen only when they are revealed; another
-    class starts without votes. Each phone has its own language."""
-    visit = opened(browser, f"{server}?tab=learn", 1920, 1080)
-    page, languages = visit.page, ("en", "de")
+    class starts without votes. Each phone has its own language. All of the lesson is in the page already."""
+    page_errors.allow(LOST)
+    languages, sockets = ("en", "de"), []
+    screen, *phones = (chromium.new_context(reduced_motion="reduce", has_touch=bool(i)) for i in range(3))
+    page = screen.new_page()
+    page.route_web_socket(re.compile("/ws"), lambda each: connected(each, sockets))
+    opened(page, f"{server}?tab=learn", 1920, 1080)
     presented(page)
     page.locator(".link-said").get_by_text("?vote=").wait_for()
     page.locator(".count").get_by_text(say("teach.room.nobody")).wait_for()
     assert page.locator(".qr svg").bounding_box()["height"] > 300  # it must be readable across a room
     assert page.locator(".warning").inner_text() == say("teach.room.local")
     address = f"http://{page.locator('.link-said').inner_text()}"
-    students = [opened(phone, f"{address}&lang={each}", 390, 844)
+    students = [opened(phone.new_page(), f"{address}&lang={each}", 390, 844)
                 for phone, each in zip(phones, languages, strict=True)]  # fmt: skip
-    for visiting, option, language in zip(students, ("over", "falls"), languages, strict=True):
+    for phone, option, language in zip(students, ("over", "falls"), languages, strict=True):
         words = listed("learn.flips.options", language)[option]
-        visiting.page.get_by_role("radio", name=words).check(force=True)
-        sent(visiting.page, words, language)
-        assert visiting.page.locator(".told > *").count() == 0
+        phone.get_by_role("radio", name=words).check(force=True)
+        sent(phone, words, language)
+        assert phone.locator(".told > *").count() == 0
     page.locator(".count b", has_text="2").wait_for()
     assert page.locator(".votes").count() == 0 and page.locator(".letters li").count() == 4
     fits(page)
-    page.keyboard.press("r")
-    ends(page)
-    page.locator(".letters .true").get_by_text(say("learn.flips.options.over")).wait_for()
+    revealed(page, lesson.OF_NAME["flips"])
     fits(page)
     for place, count in enumerate("1010"):
         page.locator(".letters li").nth(place).locator("em", has_text=re.compile(f"^{count}$")).wait_for()
-    for visiting, language in zip(students, languages, strict=True):
-        visiting.page.get_by_text(say("teach.room.shown", language)).wait_for()
+    for phone, language in zip(students, languages, strict=True):
+        phone.get_by_text(say("teach.room.shown", language)).wait_for()
 
     # the next question, also on the phones; a phone that reloads keeps its identity
     page.keyboard.press("ArrowRight")
-    for visiting, language in zip(students, languages, strict=True):
-        visiting.page.get_by_role("heading", name=say("learn.way.question", language)).wait_for()
-        assert visiting.page.locator(".option :checked").count() == 0
+    for phone, language in zip(students, languages, strict=True):
+        phone.get_by_role("heading", name=say("learn.way.question", language)).wait_for()
+        assert phone.locator(".option :checked").count() == 0
     other = listed("learn.way.options")["other"]
-    students[0].page.get_by_role("radio", name=other).check(force=True)
-    sent(students[0].page, other)
-    students[0].page.reload()
-    sent(students[0].page, other)
+    students[0].get_by_role("radio", name=other).check(force=True)
+    sent(students[0], other)
+    students[0].reload()
+    sent(students[0], other)
     page.keyboard.press("0")
     page.locator(".count b", has_text=re.compile("^0$")).wait_for()
-    for visiting, language in zip(students, languages, strict=True):
-        visiting.page.get_by_role("heading", name=say("learn.flips.question", language)).wait_for()
-        visiting.page.get_by_text(say("teach.room.vote", language)).wait_for()
-        assert visiting.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    students[1].page.emulate_media(color_scheme="dark")
-    students[1].page.wait_for_function("document.documentElement.dataset.look === 'dark'")
+    for phone, language in zip(students, languages, strict=True):
+        phone.get_by_role("heading", name=say("learn.flips.question", language)).wait_for()
+        phone.get_by_text(say("teach.room.vote", language)).wait_for()
+        assert phone.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    students[1].emulate_media(color_scheme="dark")
+    students[1].wait_for_function("document.documentElement.dataset.look === 'dark'")
+    page.route("**/readyz", lambda route: route.abort())
+    [(socket, _)] = sockets
+    sockets.append(None)
+    socket.close()
+    page.locator(".warning").get_by_text(say("teach.room.lost")).wait_for()
+    for step in lesson.SIX[:2]:
+        page.get_by_role("heading", name=say(f"learn.{step.name}.question")).wait_for()
+        revealed(page, step)
+        page.keyboard.press("ArrowRight")
     page.keyboard.press("Escape")
     page.locator(".lesson.present").wait_for(state="detached")
-    for each in (*students, visit):
-        closed(each)
-
-
-def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path, page_errors):
-    """Everything is in the page already; it says that the votes wait, and does not reload."""
-    page_errors.allow(LOST)
-    with ExitStack() as network, served(tmp_path / "log", votes=tmp_path / "votes"):
-        own = network.enter_context(served(tmp_path / "own", votes=tmp_path / "votes"))
-        page = opened(browser, f"{own.url}?tab=learn", 1400, 900).page
-        presented(page)
-        page.locator(".link-said").get_by_text("?vote=").wait_for()
-        network.close()
-        page.locator(".warning").get_by_text(say("teach.room.lost")).wait_for()
-        for step in lesson.SIX:
-            page.get_by_role("heading", name=say(f"learn.{step.name}.question")).wait_for()
-            page.keyboard.press("r")
-            ends(page)
-            page.locator(".board .told > *").first.wait_for()
-            truth = step.answer(Explorer().scene).truth
-            page.locator(".letters .true").get_by_text(listed(f"learn.{step.name}.options")[truth]).wait_for()
-            page.keyboard.press("ArrowRight")
-        page.close()
+    for context in (screen, *phones):
+        context.close()
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

@@ -39,7 +39,7 @@ def words_of(language):
     return set().union(*(pieces(listed(path.stem, language)) for path in folder.glob("*.toml")))
 
 
-def test_keys_of_the_page(visit):
+def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(visit):
     page = visit.page
     for playing in ("", "!"):  # paused at first, where a person prefers less motion
         page.locator("body").press("Space")
@@ -49,48 +49,39 @@ def test_keys_of_the_page(visit):
     page.wait_for_function("__tippe.top3d.index == 0")
     page.locator("body").press("ArrowRight")
     page.wait_for_function("__tippe.top3d.index == 1")
-    page.get_by_role("status", name="What the top does now").filter(has_text="The top rolls all along").wait_for(
-        state="attached"
-    )
+    said = page.get_by_role("status", name="What the top does now").filter(has_text="The top rolls all along")
+    said.wait_for(state="attached")
+    keys = page.get_by_role("dialog", name="Keys")
     page.locator("body").press("?")
-    page.get_by_role("dialog", name="Keys").get_by_text("play or pause").wait_for()
+    keys.get_by_text("play or pause").wait_for()
     page.keyboard.press("Escape")
-    page.get_by_role("dialog", name="Keys").wait_for(state="hidden")
+    keys.wait_for(state="hidden")
     slider = page.get_by_role("slider", name="Jellett’s constant")
     slider.press("ArrowRight")  # there it belongs to the control
     assert slider.get_attribute("aria-valuetext") == "7.01 root g over R"
     assert page.evaluate("__tippe.top3d.index") == 1
     page.locator("body").press("Space")
     assert not page.evaluate("__tippe.top3d.playing")
+    for size in ({"width": 1400, "height": 900}, {"width": 390, "height": 844}):
+        page.set_viewport_size(size)
+        the_tour(page, size["width"])
+    page.get_by_role("slider", name="Jellett’s constant").click()  # on a phone it stands under the pictures
 
 
-@pytest.fixture
-def sized(chromium, server, request):
-    width, height = request.param
-    page = chromium.new_page(viewport={"width": width, "height": height}, reduced_motion="reduce")
-    yield Visit(page, server)
-    page.close()
-
-
-@pytest.mark.parametrize("sized", [(1400, 900), (390, 844)], ids=["1400x900", "390x844"], indirect=True)
-def test_the_tour_covers_nothing_it_shows_and_can_be_skipped(sized):
-    page = sized.page
+def the_tour(page, width):
+    """It covers nothing that it shows, and can be skipped."""
     page.locator("body").press("?")
     page.get_by_role("button", name="Take the tour").click()
     for i in range(1, 6):
         step = page.get_by_role("dialog").filter(has_text=f"{i} of 5")
         step.wait_for()
         box, ring = step.bounding_box(), page.locator(".ring")
-        assert box["x"] >= 0 and box["x"] + box["width"] <= page.viewport_size["width"]
-        if ring.is_visible():
-            shown = ring.bounding_box()
-            apart = [
-                box["x"] >= shown["x"] + shown["width"] - 8,
-                shown["x"] >= box["x"] + box["width"] - 8,
-                box["y"] >= shown["y"] + shown["height"] - 8,
-                shown["y"] >= box["y"] + box["height"] - 8,
-            ]
-            assert any(apart), (i, box, shown)
+        assert box["x"] >= 0 and box["x"] + box["width"] <= width
+        shown = ring.bounding_box() if ring.is_visible() else None
+        assert shown is None or any(
+            one[at] >= other[at] + other[size] - 8
+            for one, other in ((box, shown), (shown, box)) for at, size in (("x", "width"), ("y", "height"))
+        ), (width, i, box, shown)  # fmt: skip
         if i < 5:
             page.get_by_role("button", name="Next", exact=True).click()
     page.keyboard.press("Escape")
@@ -99,16 +90,14 @@ def test_the_tour_covers_nothing_it_shows_and_can_be_skipped(sized):
     page.get_by_role("button", name="Take the tour").click()
     page.get_by_role("button", name="Skip").click()
     page.locator(".stop").wait_for(state="hidden")
-    if page.viewport_size["width"] < 900:  # the controls stand under the pictures
-        page.get_by_role("slider", name="Jellett’s constant").click()
 
 
 def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_changes_the_language(chromium, server):
-    page = chromium.new_page(viewport={"width": 1400, "height": 900})
-    visit = Visit(page, f"{server}?lang=de")
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+    Visit(page, f"{server}?lang=de")
     assert page.evaluate("document.documentElement.lang") == "de"
     page.get_by_role("slider", name="Jellett-Konstante").press("ArrowLeft")
-    page.wait_for_url("**?v=2&KJ=6.99&lang=de")
+    page.wait_for_url("**?v=2&KJ=6.99&t=0&lang=de")
     inertia = page.get_by_label("Trägheitsmoment um die Achse, in M R Quadrat")
     inertia.fill("2")
     inertia.press("Enter")
@@ -137,7 +126,6 @@ def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_chang
     page.get_by_role("button", name="Mehr").click()
     page.get_by_role("radio", name="English").click()
     page.wait_for_function("document.documentElement.lang == 'en' && window.__tippe?.top3d?.pictures > 0")
-    assert page.url.endswith("?v=2&KJ=6.99&lang=en")
+    assert page.url.endswith("?v=2&KJ=6.99&t=0&lang=en")
     assert page.get_by_role("slider", name="Jellett’s constant").input_value() == "6.99"
     page.close()
-    assert not visit.errors

@@ -65,9 +65,14 @@ class Lesson {
     document.addEventListener("fullscreenchange", this.onScreen, { signal });
   }
 
+  // The lesson goes on also where this cannot be sent: Bokeh throws while it is connecting again.
   ask(name, value) {
     this.count += 1;
-    this.model.asked = [this.count, name, value];
+    try {
+      this.model.asked = [this.count, name, value];
+    } catch (error) {
+      if (!(error instanceof DOMException)) throw error;
+    }
   }
 
   // The steps of the part that is shown: the lesson, or the part for theorists.
