@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from high_precision import Curve, mp, mpf
+from references import kept
 
 from tippe_core import Constants, Top, pole_constants
 
@@ -15,6 +16,9 @@ LOADED = Top(a=0.3, I1=131 / 350, I3=0.4)
 TOPS = {"paper": PAPER, "two wells": TWO_WELLS, "ordinary": ORDINARY, "ball": BALL, "loaded": LOADED}
 
 
+AT_A_POLE = -1
+
+
 @dataclass(frozen=True)
 class Case:
     """A motion: its top, K_J, K_R, and how far its energy lies above the bottom of its well (in MgR)."""
@@ -23,17 +27,21 @@ class Case:
     K_J: float
     K_R: float
     rise: float
-    well: int = 0  # by depth, for `rise`
+    well: int = 0  # by depth, for `rise`, or AT_A_POLE
     row: int = 0  # of turning_points, from theta = 0 on
 
     @property
     def curve(self):
-        return _curve(self)
+        return _found(self)[0]
+
+    @property
+    def intervals(self):
+        """[(inner, outer)] in fifty digits."""
+        return _found(self)[1]
 
     @property
     def interval(self):
-        """(inner, outer) in fifty digits."""
-        return _intervals(self)[self.row]
+        return self.intervals[self.row]
 
     @property
     def constants(self):
@@ -42,27 +50,60 @@ class Case:
     @property
     def period(self):
         """To some nine figures: it only says where to look."""
-        return _period(self)
+        return float(_found(self)[2][self.row])
+
+    @property
+    def steady(self):
+        """Where U has its minima, to a float's digits."""
+        return _found(self)[3]
+
+    @property
+    def exact_period(self):
+        return _times(self)[0]
+
+    @property
+    def third(self):
+        """(theta at a third of the way out, when the top is there) in fifty digits."""
+        return _times(self)[1:]
 
 
-@cache
-def _curve(case):
-    curve = Curve(case.top, case.K_J, case.K_R)
+def _text(x):
+    return mp.nstr(x, 60)
+
+
+@kept
+def case_in_digits(top, K_J, K_R, rise, well):
+    """(E; the turning points as text; the period of each two, roughly; the minima of U)."""
+    curve = Curve(top, K_J, K_R)
     steady = curve.steady()
     # for trajectories through a pole, the minimum of U is at the pole itself, or at the grid point closest to it
-    bottom = curve.U(steady[case.well]) if steady else min(curve.U(x) for x in curve.grid())
-    return curve.at(float(curve.energy_of(bottom) + mpf(case.rise)))
-
-
-@cache
-def _intervals(case):
-    return case.curve.turning_points()
-
-
-@cache
-def _period(case):
+    bottom = curve.U(steady[well]) if steady and well != AT_A_POLE else min(curve.U(x) for x in curve.grid())
+    curve = curve.at(float(curve.energy_of(bottom) + mpf(rise)))
+    rows = curve.turning_points()
     with mp.workdps(20):
-        return float(case.curve.period(*case.interval))
+        periods = [float(curve.period(*row)) for row in rows]
+    return float(curve.E), [[_text(x) for x in row] for row in rows], periods, [float(x) for x in steady]
+
+
+@kept
+def times_in_digits(top, K_J, K_R, E, inner, outer):
+    """(the period, a third of the way out, when the top is there) as text, from turning points as text."""
+    curve, inner, outer = Curve(top, K_J, K_R, E), mpf(inner), mpf(outer)
+    theta = inner + (outer - inner) / 3
+    return tuple(_text(x) for x in (curve.period(inner, outer), theta, curve.time(inner, outer, theta)))
+
+
+@cache
+def _found(case):
+    E, rows, periods, steady = case_in_digits(case.top, case.K_J, case.K_R, case.rise, case.well)
+    return Curve(case.top, case.K_J, case.K_R, E), [tuple(mpf(str(x)) for x in row) for row in rows], periods, steady
+
+
+@cache
+def _times(case):
+    curve, inner_and_outer = case.curve, map(_text, case.interval)
+    found = times_in_digits(case.top, case.K_J, case.K_R, float(curve.E), *inner_and_outer)
+    return tuple(mpf(str(x)) for x in found)
 
 
 _P, _INVERTED = pole_constants(PAPER, 10.0)
@@ -94,14 +135,14 @@ CASES = {
 }
 
 POLES = {
-    "P": (PAPER, _P, 10.0, 2.0),
-    "P, K_R < 0": (PAPER, -_P, -10.0, 5.0),
-    "inverted pole": (PAPER, _INVERTED, 10.0, 3.0),
-    "P of the ordinary top": (ORDINARY, pole_constants(ORDINARY, 60.0)[0], 60.0, 4.0),
-    "inverted ordinary top": (ORDINARY, pole_constants(ORDINARY, 20.0)[1], 20.0, 1.0),
-    "P of the ball": (BALL, pole_constants(BALL, 4.0)[0], 4.0, 1.0),
-    "rocking through the pole": (PAPER, 0.0, 0.0, 0.05),
-    "tumbling through both poles": (PAPER, 0.0, 0.0, 0.6),
+    "P": Case(PAPER, _P, 10.0, 1.0, AT_A_POLE),
+    "P, K_R < 0": Case(PAPER, -_P, -10.0, 2.5, AT_A_POLE),
+    "inverted pole": Case(PAPER, _INVERTED, 10.0, 1.5, AT_A_POLE),
+    "P of the ordinary top": Case(ORDINARY, pole_constants(ORDINARY, 60.0)[0], 60.0, 2.0, AT_A_POLE),
+    "inverted ordinary top": Case(ORDINARY, pole_constants(ORDINARY, 20.0)[1], 20.0, 0.5, AT_A_POLE),
+    "P of the ball": Case(BALL, pole_constants(BALL, 4.0)[0], 4.0, 0.5, AT_A_POLE),
+    "rocking through the pole": Case(PAPER, 0.0, 0.0, 0.025, AT_A_POLE),
+    "tumbling through both poles": Case(PAPER, 0.0, 0.0, 0.3, AT_A_POLE),
 }
 
 

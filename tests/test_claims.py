@@ -216,13 +216,9 @@ def test_no_transition_without_slipping(compare):
     assert not np.any((lines.theta_inner < np.pi / 2) & (lines.theta_outer > np.pi - 0.5))
 
 
-@pytest.mark.slow
 def test_time_by_quadrature(compare):
-    case = CASES["K_J = 7"]
-    inner, outer = case.interval
-    rolling = Rolling(case.top, case.constants)
-    for share in (0.1, 0.5, 0.9):
-        theta = inner + (outer - inner) * mpf(share)
-        t = case.curve.time(inner, outer, theta)
-        found = rolling.theta(np.array([0.0, float(t)]))[1]
+    for name in ("K_J = 7", "deep well", "ordinary"):
+        case = CASES[name]
+        theta, t = case.third
+        found = Rolling(case.top, case.constants, well=case.row).theta(np.array([0.0, float(t)]))[1]
         compare("t by quadrature", found, float(theta), 1e-13, "the integral in fifty digits")

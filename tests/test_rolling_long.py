@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import rigid_body as rb
 from cases import CASES, PAPER, POLES, Case
-from high_precision import Curve, mp, mpf
+from high_precision import mp
 
 from tippe_core import Constants, Rolling, State, Top, TopError, glide, roll
 
@@ -74,9 +74,8 @@ def test_constants_are_kept(case, nutation):
 
 @pytest.mark.parametrize("nutation", [0, 10_000])
 def test_constants_are_kept_through_the_pole(nutation):
-    top, K_J, K_R, rise = POLES["P"]
-    curve = Curve(top, K_J, K_R)
-    constants = Constants(K_J, K_R, float(curve.energy_of(curve.U(mpf("1e-9")) + rise)))
+    case = POLES["P"]
+    top, K_J, K_R, constants = case.top, case.K_J, case.K_R, case.constants
     period = Rolling(top, constants).period
     times = window((nutation - 0.15) * period if nutation else 0.85 * period, 0.3 * period)
     trajectory = roll(top, constants, np.append(0.0, times))
