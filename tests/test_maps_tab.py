@@ -105,7 +105,7 @@ def test_another_click_on_the_same_place_asks_again(tab, monkeypatch):
 @pytest.fixture
 def tab():
     fresh = Maps()
-    fresh.settings.entries["cells"].value = "9"
+    fresh.settings.entries["cells"].value = "6"
     return fresh
 
 
@@ -146,7 +146,7 @@ def test_another_axis_law_and_colour(tab):
 def test_a_box_looks_closer_and_the_whole_range_comes_back(tab):
     tab._by_hand({"x": [30.0, 20.0], "y": [5.0, 10.0], "cell": [0, 0]})
     assert (tab.asked.across_range, tab.asked.up_range) == ((20.0, 30.0), (5.0, 10.0))
-    assert tab.level.x[0] == pytest.approx(20 + 10 / 18) and 20 < tab.choice.place[0] < 30
+    assert tab.level.x[0] == pytest.approx(20 + 10 / 12) and 20 < tab.choice.place[0] < 30
     tab.settings.look_at(*tab._usual_spans())
     assert tab.asked.across_range == (5.0, 50.0)
 
@@ -177,7 +177,7 @@ def test_pieces_are_shown_while_it_is_drawn(tab, monkeypatch):
     monkeypatch.setattr(Maps, "_show_part", lambda tab, run, level, share: seen.append(int((level.end != "").sum())))
     tab.settings.entries["seconds"].value = "0.3"
     tab.settings.entries["cells"].value = "24"
-    assert len([cells for cells in seen if cells not in (8 * 8, 9 * 9, 24 * 24)]) > 3
+    assert len([cells for cells in seen if cells not in (6 * 6, 8 * 8, 24 * 24)]) > 3
 
 
 def test_the_map_is_in_the_address_and_undone():
@@ -186,7 +186,7 @@ def test_the_map_is_in_the_address_and_undone():
     keep.add(tab.choice)
     tab.choice.param.watch(lambda *events: keep.at_rest(), [*tab.choice.INPUTS])
     assert keep.query == ""
-    tab.settings.entries["cells"].value = "9"
+    tab.settings.entries["cells"].value = "3"
     tab.settings.choices["law"].value = "smoothed"
     tab.settings.entries["mu"].value = "0.25"
     asked = tab.choice.asked
@@ -211,7 +211,13 @@ def test_a_link_has_the_map_of_its_own_body(preset):
     assert MapText.value(MapText.text(asked)) == asked
 
 
-def test_the_pages_top_slides():
+@pytest.fixture
+def few_cells(monkeypatch):
+    """The map of the page's top has 9 cells at first."""
+    monkeypatch.setattr("app.tabs.maps.maps.MAP", Map(cells=3))
+
+
+def test_the_pages_top_slides(few_cells):
     assert Maps(scene=solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)).asked.body == "The paper's tippe top"
     own = Top(0.1, 0.42, 0.41)
     tab = Maps(scene=solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None))
@@ -221,7 +227,7 @@ def test_the_pages_top_slides():
     assert tab.asked.body == toy.name and tab.asked.own is None
 
 
-def test_a_link_has_the_map_of_the_pages_own_top():
+def test_a_link_has_the_map_of_the_pages_own_top(few_cells):
     own = Top(0.1, 0.42, 0.41)
     scene = solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None)
     text = MapText.text(replace(Maps(scene=scene).choice.asked, law="viscous", cells=3))
