@@ -166,8 +166,9 @@ async def closes(page, first, second):
 
 
 def test_two_servers_are_one_class(redis, tmp_path):
-    """In a Redis; a file is that of two workers above. Phones at one server, the teacher at the other: phones follow from question to question, see no answer before it
-    is shown, and no vote but their own. The class continues with the teacher's address, and ends when it is closed."""
+    """In a Redis; a file is that of two workers above. Phones at one server, the teacher at the other: phones follow
+    from question to question, see no answer before it is shown, and no vote but their own. The class continues with the
+    teacher's address, and ends when it is closed."""
 
     async def lesson(one, other, end_of_one):
         page = await teacher(one.url)
