@@ -192,7 +192,7 @@ HANDING = [(State(1.9, 0, 0, -3.0), VISCOUS), (State(1.9, 0, 0, -1.0), Coulomb(0
 def test_hand_over_landing_and_flight(state, friction):
     """Nothing goes through the table, energy only falls and all of it is in the ledger, forces push within the law."""
     times = np.linspace(0, 196 if state.theta == 0.1 else 18, 1001)
-    moved = slide(PAPER, state, friction, times, rtol=1e-11, landing="plastic", edge=EDGE)
+    moved = slide(PAPER, state, friction, times, rtol=1e-11, edge=EDGE)
     what = [name for _, name in moved.events]
     assert {"stands on its stem", "lands on its stem"} & set(what)
     axes = matrices(moved)[:, :, 2]
@@ -207,7 +207,7 @@ def test_hand_over_landing_and_flight(state, friction):
     if isinstance(friction, Coulomb):
         assert np.all(np.hypot(*moved.force[:, :2].T) <= friction.mu_s * moved.force[:, 2] * (1 + 1e-9))
     # at half the tolerance the same, but for how many of ever smaller bounces count
-    finer = slide(PAPER, state, friction, times, rtol=5e-12, landing="plastic", edge=EDGE)
+    finer = slide(PAPER, state, friction, times, rtol=5e-12, edge=EDGE)
     assert {name for _, name in finer.events} == set(what)
     for (a, name), (b, same) in zip(moved.events[:3], finer.events[:3], strict=True):
         assert name == same and abs(a - b) < 1e-6
@@ -240,7 +240,7 @@ def test_nearly_flat_it_stands_only_where_it_rocks_no_more(state, friction):
     The first passes flat at 8e-4 rad, and so fast that only the stiffest spring is a hard table.
     """
     times = np.linspace(0, 4, 61)
-    moved = slide(PAPER, state, friction, times, edge=EDGE, landing="plastic")
+    moved = slide(PAPER, state, friction, times, edge=EDGE)
     assert "stands upright" not in {what for _, what in moved.events} and len(moved.t) == 61
     np.testing.assert_allclose(moved.theta, yielding(PAPER, state, friction, times, EDGE)[0], rtol=0, atol=5e-3)
     assert (np.pi - moved.theta).max() > np.arctan2(B, H) / 2
@@ -297,7 +297,7 @@ def test_the_flat_end_comes_down_in_a_plane(friction, inertia):
 def test_rocking_over_against_a_table_that_yields():
     state, friction = State(2.6, 0, 0, 0, vy=-1), SmoothedCoulomb(0.7, 0.1)
     times = np.linspace(0, 4, 41)
-    moved = slide(PAPER, state, friction, times, edge=EDGE, landing="plastic")
+    moved = slide(PAPER, state, friction, times, edge=EDGE)
     assert moved.events[0][1] == "rocks over"
     yields = stem_body.integrate(PAPER, state, friction, times, EDGE, k=1e8, damping=20.0)
     np.testing.assert_allclose(moved.theta, yields.theta, rtol=0, atol=2e-4)
@@ -324,7 +324,7 @@ def test_a_start_flat_on_the_end_leans_to_where_it_moves(theta_dot):
 @pytest.mark.parametrize("friction", [SmoothedCoulomb(0.3, 0.1), VISCOUS, Coulomb(0.3), GREASED])
 def test_a_start_flat_on_the_end_with_a_spin_stands(friction, spin, lean):
     """All of the rim carries alike: neither weight nor friction has a side to tip it to. It rocked over 1000 times."""
-    moved = slide(PAPER, State(np.pi - lean, 0, 0, spin), friction, np.linspace(0, 4, 41), edge=EDGE, landing="plastic")
+    moved = slide(PAPER, State(np.pi - lean, 0, 0, spin), friction, np.linspace(0, 4, 41), edge=EDGE)
     ((t, what),) = moved.events
     assert what == "stands upright" and t < 1e-8 and moved.supports == ((0.0, "stem"),)
     heights = moved.com[:, 2] + [sb.edge(PAPER, *EDGE[:2])(axis)[2] for axis in matrices(moved)[:, :, 2]]

@@ -28,7 +28,7 @@ SECOND = 1 / SCALES.time
 def thrown(spin, seconds, friction=HAND, edge=EDGE, tilt=10.0, samples=2001, **how):
     """The paper's top let go at so many rev/s, from the degrees of tilt."""
     start = State(np.radians(tilt), 0, 0, 2 * np.pi * spin / SCALES.angular_velocity)
-    how = {"landing": "plastic", "edge": edge} | how
+    how = {"edge": edge} | how
     return slide(PAPER, start, friction, np.linspace(0, seconds * SECOND, samples), **how)
 
 
@@ -87,7 +87,7 @@ def test_where_it_is_in_the_end(moved, end, settled):
 
 
 def test_what_ends_it_early_is_said():
-    moved = slide(PAPER, State(1.9, 3.0, 0.0, 15.0), HAND, np.linspace(0, 5, 500), edge=EDGE)
+    moved = slide(PAPER, State(1.9, 3.0, 0.0, 15.0), HAND, np.linspace(0, 5, 500), edge=EDGE, landing="stop")
     found = ending(moved)
     assert moved.t[-1] < 5 and found.ended == "lifts off"
     assert not found.settled and not found.cut and not found.flat

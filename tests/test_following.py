@@ -39,8 +39,7 @@ def test_nothing_asked_is_nothing_given():
         assert slide_many(top, start, Coulomb(0.3), times).end.shape == np.shape(times)
 
 
-def test_one_cell_of_another_kind_is_refused():
+def test_a_bad_nudge_is_refused():
     start = State(0.1, 0, 0, 10)
-    assert slide_many([start, Top.paper()], start, Coulomb(0.3), 0.1).end.tolist() == ["refused", "upright"]
     with pytest.raises(TopError, match="nudge"):
         slide_many(Top.paper(), start, Coulomb(0.3), 0.1, TruncatedSphere.paper().edge, nudge=0)

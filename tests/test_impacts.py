@@ -76,7 +76,7 @@ def test_painleve_on_the_ball():
     """
     limit = left = 0
     for state, gamma in (SANK, *starts(150)):
-        moved = slide(PAPER, state, Viscous(gamma), np.linspace(0, 0.03, 61), landing="plastic", rtol=1e-10)
+        moved = slide(PAPER, state, Viscous(gamma), np.linspace(0, 0.03, 61), rtol=1e-10)
         assert above_the_table(moved).min() > -1e-9
         q, w, v, _ = first_instant(slide(PAPER, state, GREASED, [0]))
         N, free = (sb.accelerations(PAPER, lambda u, k=k: k * u * [1, 1, 0], sb.matrix(q)[:, 2], w, v)[2]
@@ -92,7 +92,7 @@ def test_painleve_on_the_ball():
 def test_a_short_hop_of_a_start_ends_where_the_ball_meets_the_table():
     """Up and down again within the first step of the flight; it was followed to that step's end, below the table."""
     state, friction = State(1.89178890, -3.72605542, 1.10835478, 9.26861311, vx=0.7131987, vy=-0.9385750), VISCOUS
-    moved = slide(PAPER, state, friction, np.linspace(0, 0.02, 201), landing="plastic", rtol=1e-10)
+    moved = slide(PAPER, state, friction, np.linspace(0, 0.02, 201), rtol=1e-10)
     assert [what for _, what in moved.events[:2]] == ["lifts off", "lands"]
     assert above_the_table(moved).min() > -1e-9
     # the flight in closed form: L is kept, and the axis goes round it
@@ -142,10 +142,10 @@ def test_the_table_never_pulls_and_supports_are_what_touches(theta, rates, vx, v
 def flight():
     """A motion with a flight, sampled closely around its ends."""
     state = State(1.5, 3.0, 5.0, 3.0)
-    (t0, _), (t1, _) = slide(PAPER, state, VISCOUS, np.linspace(0, 3, 31), rtol=1e-12, landing="plastic").events[:2]
+    (t0, _), (t1, _) = slide(PAPER, state, VISCOUS, np.linspace(0, 3, 31), rtol=1e-12).events[:2]
     near = 1e-9
     times = np.concatenate([[0, t0 - near], np.linspace(t0 + near, t1 - near, 101), [t1 + near]])
-    return slide(PAPER, state, VISCOUS, times, rtol=1e-12, landing="plastic")
+    return slide(PAPER, state, VISCOUS, times, rtol=1e-12)
 
 
 def test_flight_is_free_and_the_impact_balances():
@@ -219,10 +219,10 @@ def test_stop_at_lift_off_is_as_it_was():
 
 def test_a_start_that_leaves_the_table_at_once():
     state, times = State(2.8, 0.1, -0.5, -9.0), np.linspace(0, 1, 11)
-    stopped = slide(PAPER, state, VISCOUS, times, edge=EDGE)
+    stopped = slide(PAPER, state, VISCOUS, times, edge=EDGE, landing="stop")
     assert stopped.events == ((0.0, "lifts off"),) and list(stopped.regime) == ["air"]
     assert stopped.supports == ((0.0, "none"),)
-    flying = slide(PAPER, state, VISCOUS, times, edge=EDGE, landing="plastic")
+    flying = slide(PAPER, state, VISCOUS, times, edge=EDGE)
     assert flying.regime[0] == "air" and flying.events[0] == (0.0, "lifts off") and len(flying.t) == 11
     assert flying.events[1][1].startswith("lands") and flying.supports[:1] == ((0.0, "none"),)
 
@@ -231,12 +231,12 @@ def test_a_start_that_leaves_the_table_at_once():
 def test_a_start_on_the_ball_that_leaves_the_table_at_once(friction):
     """G falls freely from it, as N of the rigid body would have to pull."""
     state, times = State(1.0, 0.5, 3, 8), np.linspace(0, 0.15, 16)
-    stopped = slide(PAPER, state, friction, times)
+    stopped = slide(PAPER, state, friction, times, landing="stop")
     assert stopped.events == ((0.0, "lifts off"),) and list(stopped.regime) == ["air"]
     q, w, v, _ = first_instant(stopped)
     push = law(friction)
     assert sb.accelerations(PAPER, lambda u: push(u) * [1, 1, 0], sb.matrix(q)[:, 2], w, v)[2] < 0
-    flying = slide(PAPER, state, friction, times, landing="plastic")
+    flying = slide(PAPER, state, friction, times)
     z = flying.com[0, 2] + flying.velocity[0, 2] * times - times**2 / 2
     np.testing.assert_allclose(flying.com[:, 2], z, rtol=0, atol=1e-9)
 
@@ -253,18 +253,18 @@ def test_progress_and_stop():
 
     seen = []
 
-    def progress(t):
-        seen.append(t)
-        if t > 100:
+    def stops(done):
+        seen.append(done)
+        if 300 * done > 100:
             raise Stop
 
     with pytest.raises(Stop):
-        slide(PAPER, State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0), [0, 300.0], progress=progress)
-    assert len(seen) > 10 and np.all(np.diff(seen) > 0) and 100 < seen[-1] < 110
+        slide(PAPER, State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0), [0, 300.0], progress=stops)
+    assert len(seen) > 10 and np.all(np.diff(seen) > 0) and 100 < 300 * seen[-1] < 110
     for state, friction in ((State(0.1, 0, 0, 8.8), Coulomb(0.5)), (State(3.0, 0, 0, -9.0), VISCOUS),
                             (State(1.5, 3.0, 5.0, 3.0), Coulomb(0.3))):  # fmt: skip
         seen.clear()
-        slide(PAPER, state, friction, [0, 10.0], edge=EDGE, landing="plastic", progress=progress)
+        slide(PAPER, state, friction, [0, 10.0], edge=EDGE, progress=seen.append)
         assert seen
 
 
@@ -300,7 +300,7 @@ def test_in_the_air_it_turns_as_a_body_without_torque():
     """Thrown up by its own turning: the orientation, the turn about axis 3 included, with L constant in space."""
     start = State(2.5, 6.0, 1.0, 4.0, phi=0.3, psi=0.8)
     times = np.linspace(0, 0.3, 31)
-    moved = slide(PAPER, start, Coulomb(0.3), times, rtol=1e-12, landing="plastic")
+    moved = slide(PAPER, start, Coulomb(0.3), times, rtol=1e-12)
     air = moved.regime == "air"
     assert moved.events[0] == (0.0, "lifts off") and air[:10].all()
     q, omega, *_ = first_instant(moved)

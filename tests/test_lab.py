@@ -147,7 +147,7 @@ def test_its_rows_are_fewer_and_the_motion_is_that_of_all_of_them():
     start = start_of(*ARRIVAL[1:])
     seconds, few = lived(start, lambda reached: None)
     times = np.linspace(0, seconds / start.scales.time, 8001)
-    every = slide(start.top, start.state, start.friction, times, edge=start.edge, landing="plastic")
+    every = slide(start.top, start.state, start.friction, times, edge=start.edge)
     assert len(few.t) < 1600
     turned = np.diff(few.t) * np.linalg.norm(few.omega, axis=1)[1:]
     assert turned.max() < 1.5 * FAR[0]

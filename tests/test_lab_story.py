@@ -115,7 +115,7 @@ def test_the_papers_top_hangs_on_no_stem_and_is_caught():
     shape, scales = preset.shape, preset.shape.scales
     state = State(np.radians(6), 0, 0, 2 * np.pi * 35 / scales.angular_velocity)
     moved = slide(preset.top, state, Contensou(0.3, 0.5e-3 / scales.R), np.linspace(0, 6 / scales.time, 6001),
-                  edge=shape.edge, landing="plastic")  # fmt: skip
+                  edge=shape.edge)  # fmt: skip
     slipped = moved.t[moved.regime == "slip"][-1] * scales.time
     assert codes(motion)["rolls"] == pytest.approx(slipped, abs=0.01)
     assert set(moved.regime[moved.t * scales.time > slipped + 1e-6]) == {"roll"}

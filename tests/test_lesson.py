@@ -193,7 +193,7 @@ def test_a_point_is_caught_and_a_patch_creeps():
     assert 2 <= round(answer.numbers["low"], 1) <= answer.numbers["high"] <= 6
     start = start_of("Leine and Glocker's toy", 28.65, 5.73, 0.3)
     eps = 8 / (3 * np.pi) * (1e-4 / start.scales.R) * start.state.omega3
-    smooth = slide(start.top, start.state, SmoothedCoulomb(0.3, eps), start.times, rtol=1e-8, landing="plastic",
+    smooth = slide(start.top, start.state, SmoothedCoulomb(0.3, eps), start.times, rtol=1e-8,
                    edge=start.edge)  # fmt: skip
     over = smooth.t[np.argmax(smooth.theta > np.pi / 2)] * start.scales.time
     assert answer.numbers["over"] == pytest.approx(over, rel=0.06)

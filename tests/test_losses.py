@@ -74,7 +74,7 @@ def test_a_patch_at_rest_rolls_without_pivoting():
     """Leine and Glocker's toy at last: neither slips nor spins about the vertical, and keeps its energy."""
     friction, scales = Contensou(0.3, 1 / 30), Scales(R=0.015, M=0.006)
     start = State(0.1, 0, 0, 180 / scales.angular_velocity)
-    moved = slide(TOY, start, friction, np.linspace(0, 12 / scales.time, 1201), landing="plastic", edge=ROUND)
+    moved = slide(TOY, start, friction, np.linspace(0, 12 / scales.time, 1201), edge=ROUND)
     assert moved.events[-1][1] == "sticks"
     rolls = moved.regime == "roll"
     assert rolls.sum() > 100 and np.ptp(moved.energy[rolls]) < 1e-8
@@ -92,7 +92,7 @@ def test_the_life_of_a_real_toy(rad_per_s, passes, stands, leaves):
     scales = Scales(R=0.015, M=0.006)
     times = np.linspace(0, 16 / scales.time, 16_001)
     start = State(0.1, 0, 0, rad_per_s / scales.angular_velocity)
-    moved = slide(TOY, start, Contensou(0.3, 1 / 30), times, landing="plastic", edge=ROUND)
+    moved = slide(TOY, start, Contensou(0.3, 1 / 30), times, edge=ROUND)
     seconds, tilt = moved.t * scales.time, np.degrees(moved.theta)
     assert seconds[np.argmax(tilt > 90)] == pytest.approx(passes, abs=0.011)
     assert seconds[np.argmax(tilt > 170)] == pytest.approx(stands, abs=0.011)
@@ -120,11 +120,11 @@ def test_rolling_resistance_of_a_ball_that_rolls():
 
 @pytest.mark.parametrize("friction", [Coulomb(0.3), SmoothedCoulomb(0.3, 0.1), Contensou(0.3, 1 / 30), Viscous(0.5)])
 def test_the_books_balance_with_all_losses_and_a_stem(friction):
-    how = {"landing": "plastic", "edge": EDGE, "rolling_resistance": 1e-3, "air_drag": 1e-3}
+    how = {"edge": EDGE, "rolling_resistance": 1e-3, "air_drag": 1e-3}
     moved = slide(PAPER, State(0.5, 0, 0, 9.0), friction, np.linspace(0, 100, 501), **how)
     np.testing.assert_allclose(sum(moved.ledger), moved.energy[0], rtol=0, atol=1e-7)
     assert np.diff(moved.heat).min() > -1e-9
-    free = slide(PAPER, State(0.5, 0, 0, 9.0), friction, moved.t, landing="plastic", edge=EDGE)
+    free = slide(PAPER, State(0.5, 0, 0, 9.0), friction, moved.t, edge=EDGE)
     assert np.abs(free.theta - moved.theta).max() > 1e-3
 
 
@@ -149,7 +149,7 @@ def test_a_minute_is_no_error():
     scales = Scales.paper()
     times = np.linspace(0, 60 / scales.time, 6001)
     start = State(np.radians(10), 0, 0, 2 * np.pi * 30 / scales.angular_velocity)
-    moved = slide(PAPER, start, SmoothedCoulomb(0.3, 0.1), times, rtol=1e-8, landing="plastic", edge=EDGE)
+    moved = slide(PAPER, start, SmoothedCoulomb(0.3, 0.1), times, rtol=1e-8, edge=EDGE)
     assert moved.t[-1] == times[-1] or moved.events[-1][1] == "stands upright"
     np.testing.assert_allclose(sum(moved.ledger), moved.energy[0], rtol=0, atol=1e-6)
 
@@ -161,7 +161,7 @@ from tippe_core import *
 paper, edge, out = Top.paper(), TruncatedSphere.paper().edge, []
 for state, friction in ((State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)), (State(0.8, 0, 0, 4.0), Coulomb(0.5)),
                         (State(1.9, 0.5, 0, -3.0), Viscous(0.3)), (State(0.8, 9.0, 0, 3.0), Contensou(0.3, 0.05))):
-    moved = slide(paper, state, friction, [0, 0.4, 0.8], rtol=1e-8, landing="plastic", edge=edge)
+    moved = slide(paper, state, friction, [0, 0.4, 0.8], rtol=1e-8, edge=edge)
     out.append([moved.quaternion.tolist(), moved.heat.tolist(), [t for t, _ in moved.events]])
 print(json.dumps(out))
 """

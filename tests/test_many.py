@@ -36,7 +36,7 @@ def test_run_by_run(friction):
     many = slide_many(PAPER, STARTS, friction, t_end, EDGE, rtol=1e-8)
     assert many.end.shape == (3, 3) and not many.theta_end.flags.writeable
     for i, j in np.ndindex(3, 3):
-        moved = slide(PAPER, State(TILTS[i], 0, 0, SPINS[j]), friction, times, landing="plastic", edge=EDGE)
+        moved = slide(PAPER, State(TILTS[i], 0, 0, SPINS[j]), friction, times, edge=EDGE)
         what = [name for _, name in moved.events]
         assert many.hops[i, j] == what.count("lifts off") and many.flew[i, j] == (many.hops[i, j] > 0)
         passed = np.flatnonzero(np.diff(np.sign(moved.theta - np.pi / 2)))

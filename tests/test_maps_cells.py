@@ -42,7 +42,7 @@ def random_cell(rng, laws=LAWS):
 
 
 def single(cell, times):
-    return slide(cell.top, cell.state, cell.friction, times, rtol=1e-9, landing="plastic", edge=cell.edge)
+    return slide(cell.top, cell.state, cell.friction, times, rtol=1e-9, edge=cell.edge)
 
 
 def passes(cell, moved):

@@ -50,7 +50,7 @@ def test_the_life_of_a_toy_is_that_of_its_run_looked_at_closely():
     cell = Map().at(28.6, 5.7)
     life, time = _life(cell, None), cell.scales.time
     t = np.linspace(0, 60 / time, 12_001)
-    moved = slide(cell.top, cell.state, cell.friction, t, rtol=1e-6, landing="plastic", edge=cell.edge)
+    moved = slide(cell.top, cell.state, cell.friction, t, rtol=1e-6, edge=cell.edge)
     s, c, (radius, height, rounding) = np.sin(moved.theta), np.cos(moved.theta), cell.edge
     ball = moved.com[:, 2] + cell.top.a * c - 1  # its lowest point, above the table; and that of the stem
     stem = ball + 1 + height * c - radius * s - rounding
@@ -86,7 +86,7 @@ def test_a_power_is_the_slope_of_single_runs():
             spin = x["spin"] * (each if quantity == "spin" else 1)
             cell = replace(own, values=values).at(spin, x["tilt"])
             t = np.linspace(0, cell.t_end, 40_001)
-            moved = slide(cell.top, cell.state, cell.friction, t, rtol=1e-9, landing="plastic", edge=cell.edge)
+            moved = slide(cell.top, cell.state, cell.friction, t, rtol=1e-9, edge=cell.edge)
             times.append(moved.t[np.argmax(moved.theta > np.pi / 2)])
         (slope, _), covariance = np.polyfit(np.log(by), np.log(times), 1, cov=True)
         power = found["contensou", quantity]

@@ -81,7 +81,7 @@ def test_all_three_are_tippe_cores_from_one_start(explorer, planes):
     expected = {
         "rough": roll(top, None, t, grip(top, state)[0]),
         "smooth": glide(top, state, t),
-        "sliding": slide(top, state, Coulomb(0.2, 0.3), t, landing="plastic"),
+        "sliding": slide(top, state, Coulomb(0.2, 0.3), t),
     }
     for plane in PLANES:
         found = picture.motions[plane].trajectory

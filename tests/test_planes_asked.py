@@ -95,7 +95,7 @@ def test_the_longest_time_that_a_refusal_names_is_one_that_is_taken(explorer, pl
 
 def test_a_run_is_done_to_the_share_of_its_seconds(explorer, planes):
     class Halfway:
-        elapsed, reached = 1.0, 0.5 * explorer.seconds / planes.picture.settings.scales.time
+        elapsed, reached = 1.0, 0.5
 
     planes._run, planes._running = Halfway(), planes.picture.settings
     assert planes.share == pytest.approx(0.5)

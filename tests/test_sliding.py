@@ -140,7 +140,7 @@ def test_outcome_is_what_viscous_friction_comes_to(top, spin, theta):
 @pytest.mark.parametrize("state", [State(0.8, 9.0, 0, 3.0), State(0.8, 9.0, 0, 3.0, 1.7, vx=1.5, vy=-0.8)])
 def test_lift_off_ends_the_motion(state):
     times = np.linspace(0, 5, 5001)
-    moved = slide(PAPER, state, Viscous(0.3), times, rtol=1e-11)
+    moved = slide(PAPER, state, Viscous(0.3), times, rtol=1e-11, landing="stop")
     ((t, what),) = moved.events
     assert what == "lifts off" and moved.t[-1] <= t < moved.t[-1] + 1.001e-3
     assert moved.force[:, 2].min() > 0 and moved.force[-1, 2] < 0.02
@@ -210,7 +210,7 @@ def test_a_top_that_rolls_comes_to_its_stem_when_roll_says_so(edge, event):
     s, c = np.sin(state.theta), np.cos(state.theta)
     vy = -state.theta_dot * (1 - PAPER.a * c)
     rolling = replace(state, vx=w2 * (c - PAPER.a) - w3 * s, vy=vy)
-    moved = slide(PAPER, rolling, Coulomb(1.0, 100.0), times, edge=edge)
+    moved = slide(PAPER, rolling, Coulomb(1.0, 100.0), times, edge=edge, landing="stop")
     assert moved.events == ((pytest.approx(expected, abs=1e-6), event),)
 
 
@@ -220,7 +220,7 @@ def test_a_top_that_rolls_through_a_pole_keeps_its_azimuth(pole, spin):
     start = State(pole, 1.0, 0.0, spin, phi=0.7, psi=0.4)
     vy = -np.cos(pole) * (np.cos(pole) - PAPER.a)  # u_y = 0
     times = np.linspace(0, 1.0, 11)
-    moved = slide(PAPER, replace(start, vx=0.0, vy=vy), Coulomb(5.0), times)
+    moved = slide(PAPER, replace(start, vx=0.0, vy=vy), Coulomb(5.0), times, landing="stop")
     assert set(moved.regime) == {"roll"}
     assert np.abs((moved.quaternion * roll(PAPER, None, times, start).quaternion).sum(axis=1)) == pytest.approx(1)
 

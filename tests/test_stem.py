@@ -98,7 +98,7 @@ def compared(top, edge, state, friction):
     """(verdict, slide's motion). The verdict: "agrees"; why it cannot be told, "a border" where the oracle itself goes
     elsewhere after a nudge of 1e-6 rad, "the table" where it does with other impacts; else by how many rad they differ.
     """
-    moved = slide(top, state, friction, TIMES, landing="plastic", edge=edge)
+    moved = slide(top, state, friction, TIMES, edge=edge)
     times = TIMES[: len(moved.t)]
     assert len(times) == len(TIMES) or moved.events[-1][1] in ("stands upright", "rim touches", "too many events"), (
         moved.events

@@ -105,7 +105,7 @@ def test_no_more_events_than_can_be_followed(monkeypatch):
     (State(1.0, 0, 0, 1e6), Viscous(0.3), {}),
     (State(0.1, 0, 0, 9.0), Coulomb(0.3, 0.4), {}),
     (State(3.0, 0, 0, -9.0), Viscous(0.3), {"edge": TruncatedSphere.paper().edge}),
-    (State(1.5, 3.0, 5.0, 3e4), Viscous(0.3), {"landing": "plastic"}),
+    (State(1.5, 3.0, 5.0, 3e4), Viscous(0.3), {}),
 ])  # fmt: skip
 def test_more_turns_than_can_be_followed_end_it_and_what_was_computed_stays(monkeypatch, state, friction, more):
     times = np.linspace(0, 40, 4_000_001) if state.omega3 == 1e6 else np.linspace(0, 40, 40_001)
@@ -116,7 +116,7 @@ def test_more_turns_than_can_be_followed_end_it_and_what_was_computed_stays(monk
     t, what = moved.events[-1]
     assert what == "too many turns" and 0 < len(moved.t) < len(times)
     assert moved.t[-1] <= t < moved.t[-1] + 2 * times[1]
-    assert len(told) == most and told[-1] == t
+    assert len(told) == most and told[-1] == pytest.approx(t / 40)
     monkeypatch.setattr(sliding, "MOST_STEPS", 100_000)
     longer = slide(PAPER, state, friction, times[: len(moved.t)], **more)
     assert longer.events == moved.events[:-1]
@@ -165,7 +165,7 @@ def test_events_are_located_to_1e_9():
     assert list(closest.regime[1:]) == ["slip", "roll"]
     # lift-off: N of the rigid body changes sign within 1e-9
     state, law = State(0.8, 9.0, 0, 3.0), Viscous(0.3)
-    ((t, _),) = slide(PAPER, state, law, [0, 5.0], rtol=1e-12).events
+    ((t, _),) = slide(PAPER, state, law, [0, 5.0], rtol=1e-12, landing="stop").events
     motion = sb.integrate(PAPER, lambda u: 0.3 * u, *sb.first_instant(PAPER, state), np.array([0, t - 1e-9, t + 1e-9]))
     N = [sb.accelerations(PAPER, lambda u: 0.3 * u, sb.matrix(motion.quaternion[i])[:, 2], motion.omega[i],
                           motion.velocity[i])[2] for i in (1, 2)]  # fmt: skip

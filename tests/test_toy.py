@@ -18,7 +18,7 @@ def spun(rad_s, friction, seconds, count=24001, edge=TOY.edge, rtol=1e-9):
     """(t in s, the motion) of the toy let go at 0.1 rad with this spin about its axis and G at rest."""
     times = np.linspace(0, seconds / TOY.scales.time, count)
     start = State(0.1, 0.0, 0.0, rad_s / TOY.scales.angular_velocity, vx=0.0, vy=0.0)
-    moved = slide(TOY.top, start, friction, times, rtol=rtol, landing="plastic", edge=edge)
+    moved = slide(TOY.top, start, friction, times, rtol=rtol, edge=edge)
     return moved.t * TOY.scales.time, moved
 
 

@@ -3,13 +3,15 @@
 Units: lengths in R, masses in M, accelerations in g, so times in (R/g)^1/2. The names in __all__ are the public ones.
 """
 
+from importlib.metadata import PackageNotFoundError, version
+
 from .bodies.files import load_top, save_top
 from .bodies.presets import PRESETS, Preset
 from .bodies.rocking import Measured, a_from_rocking, dimension_from_rocking, rocking_period
 from .bodies.shape import Shape, Turned
 from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
-from .endings import SUNK, Ending, Stretch, ending, lowest, sunk
+from .endings import Ending, Stretch, ending
 from .errors import NoMotionError, TopError
 from .linear import spinning_modes, tumbling_modes
 from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
@@ -17,6 +19,7 @@ from .motion.grip import grip
 from .motion.many import Many, States, slide_many
 from .motion.preparing import strongest_friction
 from .motion.rolling import Rolling, roll
+from .motion.sinking import SUNK, lowest, sunk
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
 from .motion.tally import UPRIGHT
@@ -30,6 +33,11 @@ from .paper.share import allowed_shares
 from .paper.tielines import Tielines, figures, limit_energy, tielines
 from .paper.top import Scales, Top
 from .paper.wells import SteadyPrecessions, steady_precessions, turning_points
+
+try:
+    __version__ = version("tippe-top-explorer")
+except PackageNotFoundError:  # sources that are not installed
+    __version__ = "unknown"
 
 __all__ = [
     "PRESETS",
@@ -71,6 +79,7 @@ __all__ = [
     "TruncatedSphere",
     "Turned",
     "Viscous",
+    "__version__",
     "a_from_rocking",
     "allowed_shares",
     "ball",

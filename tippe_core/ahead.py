@@ -84,8 +84,8 @@ def sliding() -> None:
     on_the_stem = State(theta=3.0, theta_dot=0.0, omega2=0.0, omega3=-9.0)
     for law in LAWS:
         slide(top, START, law, TIMES)
-        slide(top, START, law, TIMES, landing="plastic", edge=edge)
-        slide(top, on_the_stem, law, TIMES, landing="plastic", edge=edge)
+        slide(top, START, law, TIMES, edge=edge)
+        slide(top, on_the_stem, law, TIMES, edge=edge)
     slide_many(top, START, LAWS[0], 1.0, edge, nudge=1e-6)
 
 

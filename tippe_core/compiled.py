@@ -22,7 +22,7 @@ _making = threading.RLock()
 _shared: list[Callable[..., Any]] = []  # not yet registered with numba
 _compiler: int | None = None  # the thread that compiles ahead of time, while there is one
 made: list[str] = []  # kernels that this process had to compile, each with the types of its arguments
-_unwritten = ""  # why the last kernel that failed to be stored failed
+_unwritten: dict[str, str] = {}  # kernels that could not be stored, and why
 
 
 def compiled(function: Function) -> Function:
@@ -77,7 +77,7 @@ def not_kept() -> str:
     """Why the next process will have to compile this process's kernels again; empty if they are stored."""
     if kept.folder() is None:
         return "no folder can be written to: " + ", ".join(map(str, kept.places()))
-    return _unwritten
+    return next(iter(_unwritten.values()), "")
 
 
 @contextmanager
@@ -157,13 +157,14 @@ def _cache() -> Numba:
             return found if tuple(found.signature.args) == tuple(asked) else None
 
         def save_overload(self, signature: Numba, result: Numba) -> None:
-            global _unwritten
-            made.append(f"{self._py_func.__module__}.{self._py_func.__qualname__}{signature}")
+            kernel = f"{self._py_func.__module__}.{self._py_func.__qualname__}{signature}"
+            made.append(kernel)
             try:
                 with kept.locked(Path(self.cache_path), "write"):
                     super().save_overload(signature, result)
+                _unwritten.pop(kernel, None)
             except Exception as error:  # a read-only system, a full disk, a deleted folder
-                _unwritten = str(error)
+                _unwritten[kernel] = str(error)
 
     return Cache
 

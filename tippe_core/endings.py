@@ -6,20 +6,18 @@ from typing import NamedTuple
 import numpy as np
 
 from .errors import TopError
+from .motion.sinking import ANOTHER_TOUCHES
 from .motion.tally import LAST, LEANS, UPRIGHT
 from .motion.trajectory import Trajectory
 from .outcomes import steady_states
-from .types import Array, Bools
+from .types import Bools
 
 # QUIET: friction that takes less than this share of the kinetic energy in the last of the time changes nothing more.
 QUIET = 1e-3
 # CREEPS, THERE (rad): a mean tilt that changes by less, beside what it swings, stays where it is; so near its end it
 # is there.
 CREEPS, THERE = 1e-3, 3.5e-3
-# SUNK (R): so far below the table a point of the body counts as in it; rounding and a coarse rtol sink less.
-SUNK = 1e-3
-ANGLES = 1024  # for which lowest() looks at a profile at once
-REFUSED = ("rim touches", "another part touches", "Painleve's limit")
+REFUSED = ("rim touches", ANOTHER_TOUCHES, "Painleve's limit")
 STOPS = ("stands upright", "too many events", "too many turns", *REFUSED)
 
 
@@ -127,26 +125,6 @@ def _from_stable(moved: Trajectory, last: Bools) -> float:
     """Distance (rad) of the mean theta from a stable steady state on the ball; 0 for a uniform ball, which has none."""
     steady, theta = steady_states(moved.top, moved.jellett[-1]), moved.theta[last].mean()
     return float(np.abs(steady.theta[steady.stable] - theta).min()) if any(steady.stable) else 0.0
-
-
-def lowest(profile: Array, theta: Array) -> Array:
-    """Height (n,) above O, in R, of the lowest point of the body at the tilts theta (n,), rad.
-
-    profile: (k, 2), radius and height above O in R, as from Shape.profile.
-    """
-    radius, z = profile.T[:, :, None]
-    parts = np.array_split(theta, len(theta) // ANGLES + 1)  # so that a long motion needs no more memory
-    return np.concatenate([(z * np.cos(part) - radius * np.sin(part)).min(axis=0) for part in parts])
-
-
-def sunk(trajectory: Trajectory, profile: Array) -> int:
-    """The first row at which some part of the body is below the table; the number of rows if there is none.
-
-    slide() knows only the sphere and one edge, so another corner of the body may sink into the table. profile as in
-    lowest().
-    """
-    height = trajectory.com[:, 2] + trajectory.top.a * np.cos(trajectory.theta) + lowest(profile, trajectory.theta)
-    return int(np.argmax(np.append(height < -SUNK, True)))
 
 
 def _creeps(moved: Trajectory, last: Bools) -> bool:

@@ -22,6 +22,8 @@ CODES = {
     "too-high": "the centre of mass is not above the contact point",
     "too-flat": "I3 > 2 I1, which no body has",
     "no-times": "times that are no one-dimensional array of finite numbers, or none",
+    "no-rows": "no instant of a motion",
+    "outside-times": "a time at which the motion is not known",
     "no-motion": "the energy is below the bottom of every well of f",
     "no-direction": "omega_2' on the vertical axis, where axis 2' has no direction",
     "contradiction": "given twice, and not alike",
@@ -112,6 +114,32 @@ def finite(name: str, value: SupportsFloat) -> float:
     if isinstance(value, bool) or not math.isfinite(number):
         raise TopError(name, value, "a finite number", code="not-finite")
     return number
+
+
+def single(name: str, value: Any, *kinds: type) -> Any:
+    """value, or a TopError unless it is of one of these kinds and none of its fields is an array."""
+    if not isinstance(value, kinds) or has_arrays(value):
+        raise TopError(name, value, " | ".join(kind.__name__ for kind in kinds), code="wrong-kind")
+    return value
+
+
+def has_arrays(record: Any) -> bool:
+    """Whether a field of a record is an array, so that it stands for many."""
+    return any(isinstance(field, np.ndarray | list | tuple) for field in vars(record).values())
+
+
+def set_arrays(name: str, record: Any) -> None:
+    """Turns the fields of a frozen record that stands for many into read-only arrays, or raises a TopError if they do
+    not broadcast together. Which of the many are possible is not checked."""
+    for field, value in vars(record).items():
+        if value is not None:
+            array = numbers(field, value, finite=False)
+            array.flags.writeable = False
+            object.__setattr__(record, field, array if array.ndim else float(array))
+    try:
+        np.broadcast_shapes(*(np.shape(value) for value in vars(record).values() if value is not None))
+    except ValueError:
+        raise TopError(name, record, "fields that broadcast together", code="shapes-differ") from None
 
 
 def numbers(name: str, values: ArrayLike, finite: bool = True) -> Array:

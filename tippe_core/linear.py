@@ -27,6 +27,7 @@ from .paper.top import Top
 from .types import Array
 
 Modes = NDArray[np.complex128]
+ALIKE = 1e-9  # relative to the largest eigenvalue
 STEP = 1e-30  # of the complex-step derivative, whose truncation error is then below rounding
 
 
@@ -35,7 +36,7 @@ def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = F
 
     spin: its angular velocity about axis 3, in (g/R)^1/2. Three complex numbers, or two where friction makes the
     contact stick: Coulomb's always, Contensou's with radius or spin 0, and each whose k exceeds 1e8 there. The one that
-    grows fastest comes first.
+    grows fastest comes first; of those that grow alike, the slowest: the precession before the nutation.
     """
     a, I1, I3, c, w = top.a, top.I1, top.I3, -1.0 if inverted else 1.0, finite("spin", spin)
     if sticks(friction.law, c * w):
@@ -111,5 +112,7 @@ def _rolling(y: Modes, top: Top, k: float) -> Modes:
 
 
 def _sorted(matrix: NDArray[Any]) -> Modes:
+    """The eigenvalues by falling growth. Growths that rounding alone tells apart count as equal."""
     found = np.linalg.eigvals(matrix)
-    return np.asarray(found[np.argsort(-found.real, kind="stable")], complex)
+    growth = np.round(found.real / (ALIKE * np.abs(found).max(initial=ALIKE)))
+    return np.asarray(found[np.lexsort((np.abs(found.imag), -growth))], complex)

@@ -20,12 +20,13 @@ At the poles C_J = I3 (1 - a) omega (upright) and -I3 (1 + a) Omega (inverted), 
 (Rauch-Wojciechowski, Skoldstam, Glad, Regul. Chaotic Dyn. 10, 333 (2005); Rutstam, arXiv:1306.2470).
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
-from .errors import TopError, finite
+from .errors import TopError, finite, has_arrays, single
 from .paper import equations as eq
 from .paper.constants import State, versines
 from .paper.top import Scales, Top
@@ -50,9 +51,11 @@ class Change:
     stable: str
     spin: float
 
-    def holds(self, spin: float) -> bool:
-        """Whether it is stable at this spin (of either sign)."""
-        return {"always": True, "never": False}.get(self.stable, (abs(spin) > self.spin) == (self.stable == "above"))
+    def holds(self, spin: Scalars) -> bool | Bools:
+        """Whether it is stable at this spin (of either sign); broadcasts."""
+        beyond = np.where(np.equal(self.stable, "above"), np.abs(spin) > self.spin, np.abs(spin) < self.spin)
+        found = np.equal(self.stable, "always") | (np.not_equal(self.stable, "never") & beyond)
+        return found if np.ndim(found) else bool(found)
 
 
 @dataclass(frozen=True)
@@ -77,7 +80,23 @@ class Thresholds:
 
 
 def thresholds(top: Top) -> Thresholds:
-    """The Thresholds of a top."""
+    """The Thresholds of a top; of many, if its fields are arrays: then arrays of their shape in each field. Raises
+    TopError for the first that is not possible."""
+    if has_arrays(top):
+        fields = np.broadcast_arrays(top.a, top.I1, top.I3)
+        each = [
+            thresholds(Top(*numbers)) for numbers in zip(*(field.ravel().tolist() for field in fields), strict=True)
+        ]
+
+        def gathered(values: Iterable[object]) -> Any:
+            return np.array([*values]).reshape(fields[0].shape)
+
+        upright, inverted = (
+            Change(gathered(change.stable for change in changes), gathered(change.spin for change in changes))
+            for changes in ([one.upright for one in each], [one.inverted for one in each])
+        )
+        return Thresholds(gathered(one.group for one in each), upright, inverted,
+                          gathered(one.launch for one in each), gathered(one.rise for one in each))  # fmt: skip
     a, gamma = top.a, top.I1 / top.I3
     if a == 0 and gamma == 1:
         group = "neutral"
@@ -169,8 +188,8 @@ def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
 
     scales: the Scales of the real top, for a sentence in rev/s. vx, vy of the state: None means that G is at rest.
     """
-    if not isinstance(state, State):
-        raise TopError("state", state, "State", code="wrong-kind")
+    single("top", top, Top)
+    single("state", state, State)
     if scales is not None and not isinstance(scales, Scales):
         raise TopError("scales", scales, "Scales | None", code="wrong-kind")
     s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3

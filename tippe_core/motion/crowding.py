@@ -30,7 +30,10 @@ class Crowding(NamedTuple):
 def midpoints(n: int) -> tuple[Array, Array, Array]:
     """cos(eta/2), sin(eta/2) and 1 at the midpoints of n equal parts of [0, pi]: (n,) each, read-only."""
     half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
-    return np.cos(half), np.sin(half), np.ones(n)
+    found = np.cos(half), np.sin(half), np.ones(n)
+    for part in found:
+        part.flags.writeable = False
+    return found
 
 
 def crowding(Q: Callable[[Array], Array], n: int) -> Crowding | None:

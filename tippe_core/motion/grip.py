@@ -18,7 +18,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import TopError
+from ..errors import single
 from ..paper import equations as eq
 from ..paper.constants import State, versines
 from ..paper.top import Top
@@ -31,9 +31,8 @@ def grip(top: Top, state: State) -> tuple[State, float]:
     already loses nothing. The position of G and the orientation do not change; at a pole phi is chosen so that 1' is
     along the horizontal part of omega, and psi accordingly. Raises TopError for anything but a Top and a State.
     """
-    for name, value, kind in (("top", top, Top), ("state", state, State)):
-        if not isinstance(value, kind):
-            raise TopError(name, value, kind.__name__, code="wrong-kind")
+    single("top", top, Top)
+    single("state", state, State)
     a, I1, I3 = top.a, top.I1, top.I3
     v, m = (float(x) for x in versines(state.theta))
     c, s = (1 - v if v <= m else m - 1), (v * m) ** 0.5

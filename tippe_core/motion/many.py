@@ -3,21 +3,21 @@
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass, fields
+from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
+from dataclasses import MISSING, dataclass, fields
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, finite, numbers
+from ..errors import TopError, has_arrays, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
 from .dynamics import OPEN
 from .following import ENDED, MORE
 from .friction import CONTENSOU, LAWS
-from .happening import STANDS_UPRIGHT
+from .happening import PAINLEVE, RIM_TOUCHES, STANDS_UPRIGHT, TOO_MANY_EVENTS
 from .poses import WIDTH, row_at
 from .preparing import (
     beginning,
@@ -25,6 +25,7 @@ from .preparing import (
     checked_edge,
     checked_loss,
     checked_rtol,
+    flies,
     motion,
     problem,
     start,
@@ -36,7 +37,6 @@ from .tally import LAST, LEANS, UPRIGHT, begin_tally, energy
 
 MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # in one motion
 EACH = 20_000  # steps between two checks for a stop
-KINDS = ("top", (Top,)), ("state", (State,)), ("friction", LAWS)
 CELLS = 16  # motions a thread takes at a time
 
 
@@ -73,6 +73,8 @@ class Many:
                           friction; Painleve's limit; the ball's surface ends; too many events or steps), "stem" (on its
                           stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its ball, theta > pi - 0.2),
                           "leaning" (theta constant within 0.05 rad), "rolling" (without slipping, nutating), "moving"
+    reason                why a motion is "refused": the code of the TopError that slide() raises, or "too-many-events",
+                          "too-many-steps", and "too-strong" or "beyond-rim" also of an event; "" elsewhere
     """
 
     theta_end: Array
@@ -87,29 +89,45 @@ class Many:
     C_J_drift: Array
     growth: Array
     end: NDArray[np.str_]
+    reason: NDArray[np.str_]
 
 
 NUMBERS = ("time_90", "time_stem", "F_z_least", "heat", "energy_error", "C_J_drift", "growth")
 
 
+class _How(NamedTuple):
+    """What all motions of one call have in common; stop: an Event that ends them, where threads compute them."""
+
+    rtol: float
+    nudge: float | None
+    losses: tuple[float, float]
+    flies: bool
+    stop: threading.Event | None
+
+
 def slide_many(
     top: Any, state: Any, friction: Any, t_end: ArrayLike, edge: ArrayLike | None = None, rtol: float = 1e-6,
     nudge: float | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
-    progress: Callable[[float], object] | None = None,
+    progress: Callable[[float], object] | None = None, landing: str = "plastic", executor: Executor | None = None,
 ) -> Many:  # fmt: skip
-    """Many, the results of many motions like those of slide() with landing="plastic", from 0 to t_end, on all cores.
+    """Many, the results of many motions like those of slide(), from 0 to t_end, on all cores.
 
-    top, state, friction: a Top, a State and a friction law; or lists or arrays of them; or any objects that have their
-    fields as arrays, such as types.SimpleNamespace(a=..., I1=..., I3=...). The fields that tell a law are mu_k (and
-    perhaps mu_s), gamma, mu and eps, or mu and radius. t_end: a number or an array, in (R/g)^1/2. edge: (..., 2 or 3)
-    as in slide(). All these broadcast together. A cell for which slide() would raise a TopError is "refused", and its
-    numbers are nan. rtol: 1e-13 to 1e-3. nudge: in rad, as in sensitivity(); each motion is then computed twice.
-    rolling_resistance, air_drag: as in slide(). progress: is called from time to time with the fraction done; an
-    exception that it raises stops everything and is passed on. The numbers do not depend on the number of cores. Raises
-    TopError for shapes that do not broadcast, and for a bad rtol, nudge, rolling_resistance or air_drag.
+    top, state, friction: a Top, a State and a friction law, Top and State perhaps with arrays as fields; or lists or
+    arrays of them; or any objects that have their fields as arrays, such as types.SimpleNamespace(mu=..., radius=...).
+    The fields that tell a law are mu_k (and perhaps mu_s), gamma, mu and eps, or mu and radius. t_end: a number or an
+    array, in (R/g)^1/2. edge: (..., 2 or 3) as in slide(). All these broadcast together. A cell for which slide() would
+    raise a TopError is "refused", and its numbers are nan; reason has the error's code. rtol: 1e-13 to 1e-3. nudge: in
+    rad, as in sensitivity(); each motion is then computed twice. rolling_resistance, air_drag, landing: as in slide().
+
+    executor: any concurrent.futures.Executor, such as a ProcessPoolExecutor; by default threads, one for each core that
+    the process may use. The numbers do not depend on it. progress: is called from time to time with the fraction done;
+    an exception that it raises stops everything and is passed on (in other processes the motions that are under way,
+    CELLS of them each, are still computed). Raises TopError for shapes that do not broadcast, for anything that is
+    no top, state or law, and for a bad rtol, nudge, rolling_resistance, air_drag or landing.
     """
-    rtol, nudge = checked_rtol(rtol), None if nudge is None else checked_nudge(nudge)
     losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
+    how = _How(checked_rtol(rtol), None if nudge is None else checked_nudge(nudge), losses, flies(landing),
+               threading.Event() if executor is None else None)  # fmt: skip
     times = numbers("t_end", t_end)
     rims = np.empty((), object) if edge is None else _objects([tuple(rim) for rim in _rows(edge)], np.shape(edge)[:-1])
     parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS), times, rims]
@@ -120,9 +138,12 @@ def slide_many(
         raise TopError(
             "t_end", shapes, "shapes of top, state, friction, t_end and edge that broadcast", code="shapes-differ"
         ) from None
-    flat = [np.broadcast_to(part, shape).ravel() for part in parts]
-    found = _all(lambda i, stop: _cell([part[i] for part in flat], rtol, nudge, losses, stop), len(flat[0]), progress)
-    return _many(found, shape)
+    cells = list(zip(*(np.broadcast_to(part, shape).ravel().tolist() for part in parts), strict=True))
+    if executor is not None:
+        return _many(_all(cells, how, progress, executor), shape)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    with ThreadPoolExecutor(cores) as threads:
+        return _many(_all(cells, how, progress, threads), shape)
 
 
 def _rows(edge: ArrayLike) -> Array:
@@ -139,88 +160,93 @@ def _objects(items: list[Any], shape: tuple[int, ...]) -> NDArray[np.object_]:
 
 
 def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
-    """An array whose elements each give one of the kinds: an instance, or the kind and its arguments."""
-    if isinstance(given, kinds):
+    """An array of instances of the kinds, with the code of the TopError in the place of each that is not possible."""
+    if isinstance(given, np.ndarray) or (isinstance(given, list | tuple) and not hasattr(given, "_fields")):
+        cells = np.array(given, dtype=object)
+        for cell in cells.flat:
+            single(name, cell, *kinds)
+        return cells
+    if isinstance(given, kinds) and not has_arrays(given):
         return _objects([given], ())
-    if (isinstance(given, list | tuple) and not hasattr(given, "_fields")) or isinstance(given, np.ndarray):
-        return np.array(given, dtype=object)
+    missing = {}
     for kind in kinds:
         found = [field.name for field in fields(kind) if getattr(given, field.name, None) is not None]
-        needed = [
-            field.name for field in fields(kind) if field.default is field.default_factory or field.name == "mu_k"
-        ]
-        if set(needed) <= set(found):
-            try:
-                arrays = np.broadcast_arrays(*(numbers(part, getattr(given, part), finite=False) for part in found))
-            except ValueError as error:
-                if isinstance(error, TopError):
-                    raise
-                raise TopError(name, given, "fields that broadcast together", code="shapes-differ") from None
-            rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
-            return _objects([(kind, dict(zip(found, row, strict=True))) for row in rows], arrays[0].shape)
-    wanted = " | ".join(kind.__name__ for kind in kinds)
-    raise TopError(name, given, f"{wanted}", code="wrong-kind")
+        missing[kind.__name__] = [field.name for field in fields(kind) if field.default is MISSING
+                                  and field.name not in found]  # fmt: skip
+        if not missing[kind.__name__]:
+            return _possible(kind, {field: getattr(given, field) for field in found}, name)
+    wanted = " | ".join(f"{kind} with {', '.join(names)}" for kind, names in missing.items())
+    raise TopError(name, type(given).__name__, wanted, code="wrong-kind")
+
+
+def _possible(kind: type, given: dict[str, Any], name: str) -> NDArray[np.object_]:
+    """The instances of one kind whose fields are arrays, or the codes of the TopErrors that they raise."""
+    try:
+        arrays = np.broadcast_arrays(*(numbers(field, value, finite=False) for field, value in given.items()))
+    except ValueError as error:
+        if isinstance(error, TopError):
+            raise
+        raise TopError(name, kind.__name__, "fields that broadcast together", code="shapes-differ") from None
+
+    def made(row: tuple[float, ...]) -> Any:
+        try:
+            return kind(**dict(zip(given, row, strict=True)))
+        except TopError as error:
+            return error.code
+
+    rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
+    return _objects([made(row) for row in rows], arrays[0].shape)
 
 
 def _all(
-    cell: Callable[[int, threading.Event], Any], count: int, progress: Callable[[float], object] | None
-) -> list[Any]:
-    """cell(i, stop) for each i, in one thread for each core that the process may use."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    stop, found, done = threading.Event(), [None] * count, 0
-
-    def some(first: int) -> int:
-        last = min(first + CELLS, count)
-        for i in range(first, last):
-            if stop.is_set():
-                break
-            found[i] = cell(i, stop)
-        return last - first
-
-    with ThreadPoolExecutor(cores) as pool:
-        jobs = [pool.submit(some, first) for first in range(0, count, CELLS)]
-        try:
-            for job in as_completed(jobs):
-                done += job.result()
-                if progress:
-                    progress(done / count)
-        except BaseException:
-            stop.set()
-            pool.shutdown(cancel_futures=True)
-            raise
-    return found
-
-
-def _made(name: str, cell: Any, *kinds: type) -> Any:
-    """The instance that an element of _cells() stands for."""
-    if isinstance(cell, tuple) and len(cell) == 2 and isinstance(cell[1], dict):
-        return cell[0](**cell[1])
-    if not isinstance(cell, kinds):
-        raise TopError(name, cell, " | ".join(kind.__name__ for kind in kinds), code="wrong-kind")
-    return cell
-
-
-def _cell(
-    parts: list[Any], rtol: float, nudge: float | None, losses: tuple[float, float], stop: threading.Event
-) -> dict[str, Any]:
-    """The results of one motion, or that it is refused."""
+    cells: list[Any], how: _How, progress: Callable[[float], object] | None, executor: Executor
+) -> list[dict[str, Any]]:
+    """The results of all cells."""
+    jobs = [executor.submit(_some, cells[first : first + CELLS], how) for first in range(0, len(cells), CELLS)]
+    done = 0
     try:
-        top, state, friction = (_made(name, part, *kinds) for (name, kinds), part in zip(KINDS, parts, strict=False))
-        t_end = finite("t_end", parts[3])
+        for job in as_completed(jobs):
+            done += len(job.result())
+            if progress:
+                progress(done / len(cells))
+        return [result for job in jobs for result in job.result()]
+    except BaseException:
+        if how.stop:
+            how.stop.set()
+        for job in jobs:
+            job.cancel()
+        raise
+
+
+def _some(cells: list[Any], how: _How) -> list[dict[str, Any]]:
+    return [_cell(cell, how) for cell in cells]
+
+
+def _cell(cell: tuple[Any, ...], how: _How) -> dict[str, Any]:
+    """The results of one motion, or that it is refused, and why."""
+    for part in cell[:3]:
+        if isinstance(part, str):
+            return {"end": "refused", "reason": part}
+    top, state, friction, t_end, edge = cell
+    try:
         if t_end < 0:
             raise TopError("t_end", t_end, "t_end >= 0")
         check_balance(top, friction)
-        P = problem(top, friction, checked_edge(parts[4]), losses, rtol)
-        found = _followed(state, P, t_end, stop)
-        if nudge is not None:
-            beside_it = _followed(beside(state, nudge), P, t_end, stop)
-            found["growth"] = abs(beside_it["state"][0] - found["state"][0]) / abs(nudge)
+        P = problem(top, friction, checked_edge(edge), how.losses, how.rtol)
+        found = _followed(state, P, t_end, how)
+        if how.nudge is not None:
+            beside_it = _followed(beside(state, how.nudge), P, t_end, how)
+            found["growth"] = abs(beside_it["state"][0] - found["state"][0]) / abs(how.nudge)
         return found
-    except TopError:
-        return {"end": "refused"}
+    except TopError as error:
+        return {"end": "refused", "reason": error.code}
 
 
-def _followed(state: State, P: Record, t_end: float, stop: threading.Event) -> dict[str, Any]:
+# why a motion is refused that ends with this event
+REASONS = {PAINLEVE: "too-strong", RIM_TOUCHES: "beyond-rim", TOO_MANY_EVENTS: "too-many-events"}
+
+
+def _followed(state: State, P: Record, t_end: float, how: _How) -> dict[str, Any]:
     y, angles = beginning(state, 0.0, P)
     W, log, status = motion(y, angles), np.zeros((MOST_EVENTS + 2, 3)), ENDED
     _, goes_on = start(W, P, state.theta)
@@ -228,16 +254,18 @@ def _followed(state: State, P: Record, t_end: float, stop: threading.Event) -> d
     begin_tally(W, P, (1 - LAST) * t_end)
     if goes_on:
         status = MORE
-        while status == MORE and W.steps < MOST_STEPS and not stop.is_set():
-            status = run_all(W, P, log, t_end, EACH)
-    T, stands = W.tally, status == ENDED and W.events > 0 and log[W.events - 1, 1] == STANDS_UPRIGHT
-    refused = not goes_on or status == MORE or (status == ENDED and not stands) or not np.all(np.isfinite(W.y))
+        while status == MORE and W.steps < MOST_STEPS and not (how.stop and how.stop.is_set()):
+            status = run_all(W, P, log, t_end, how.flies, EACH)
+    T, last = W.tally, int(log[W.events - 1, 1]) if status == ENDED and W.events else -1
+    reason = ("too-strong" if not goes_on else "too-many-steps" if status == MORE
+              else REASONS.get(last, "") if np.all(np.isfinite(W.y)) else "not-followed")  # fmt: skip
     drift = T.drift / (abs(T.C_J) or 1.0)
     pivots = P.law.kind == CONTENSOU or P.drag > 0 or P.delta > 0
     return {"state": _state(W, P), "time_90": T.time_90, "time_stem": T.time_stem, "hops": T.hops,
             "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[13],
             "energy_error": energy(W, P) + W.y[13] - E, "C_J_drift": np.nan if pivots else drift,
-            "end": "refused" if refused else "stem" if stands else _end(T)}  # fmt: skip
+            "end": "refused" if reason else "stem" if last == STANDS_UPRIGHT else _end(T),
+            "reason": reason}  # fmt: skip
 
 
 def _state(W: Record, P: Record) -> list[float]:
@@ -273,4 +301,5 @@ def _many(found: list[dict[str, Any]], shape: tuple[int, ...]) -> Many:
     hops = np.array([one.get("hops", 0) for one in found])
     return Many(theta_end=gathered(states[0], float), state_end=States(*(gathered(x, float) for x in states)),
                 hops=gathered(hops, int), flew=gathered(hops > 0, bool),
-                end=gathered([one["end"] for one in found], str), **parts)  # fmt: skip
+                end=gathered([one["end"] for one in found], str),
+                reason=gathered([one["reason"] for one in found], str), **parts)  # fmt: skip

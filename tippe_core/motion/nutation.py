@@ -25,10 +25,10 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError
+from ..errors import TopError, numbers
 from ..paper.constants import State
 from ..paper.top import Top
-from ..types import Array, Complex
+from ..types import Array, Complex, Scalars
 from .crowding import Crowding, crowded, crowding, eta_halves
 from .phase import Ends, Pose, clock, pose, tilts, v_and_m
 from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
@@ -243,10 +243,11 @@ class Nutation(ABC):
         t = checked_times(times)
         return clock(t - t[0], self.period, *self._start_phase)
 
-    def theta(self, times: ArrayLike) -> Array:
-        """theta (n,) in rad at the times (n,)."""
-        t = checked_times(times)
-        return np.arctan2(*tilts(t - t[0], self.period, *self._start_phase, self._kappa, self.ends))
+    def theta(self, t: ArrayLike) -> Scalars:
+        """theta in rad at the times t since the start, in (R/g)^1/2: a number or an array."""
+        times = numbers("times", t)
+        found = np.arctan2(*tilts(times.ravel(), self.period, *self._start_phase, self._kappa, self.ends))
+        return found.reshape(times.shape) if times.ndim else float(found[0])
 
     @cached_property
     def _series(self) -> tuple[Array, Array]:

@@ -33,6 +33,13 @@ def checked_loss(name: str, loss: float) -> float:
     return loss
 
 
+def flies(landing: str) -> bool:
+    """Whether a motion goes on after it has left the table; a TopError if that is not said."""
+    if landing not in ("stop", "plastic"):
+        raise TopError("landing", landing, '"stop" | "plastic"', code="wrong-kind")
+    return landing == "plastic"
+
+
 def checked_edge(edge: ArrayLike | None) -> Rim | None:
     """(radius, height, rounding), or None."""
     if edge is None:
@@ -46,12 +53,28 @@ def checked_edge(edge: ArrayLike | None) -> Rim | None:
     return edge
 
 
+def checked_profile(profile: ArrayLike) -> Array:
+    """(k, 2) as a float array, or a TopError."""
+    rows = numbers("profile", profile)
+    if rows.ndim != 2 or rows.shape[1] != 2 or not len(rows):
+        raise TopError("profile", rows.shape, "Array(k, 2)", code="wrong-kind")
+    return rows
+
+
 def strongest_friction(top: Top) -> float:
     """The coefficient of sliding friction above which, at some tilt and direction of slip, no normal force balances the
     friction on the ball (Painleve's paradox): the minimum of (I1 + a^2 s^2)/(|a| (1 - a c) s)."""
-    s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
-    with np.errstate(divide="ignore"):
-        return float(np.min((top.I1 + (top.a * s) ** 2) / (abs(top.a * (1 - top.a * c)) * s)))
+    a, I1, _ = top.numbers
+    if a == 0:
+        return np.inf
+    # the logarithmic derivative is 0 where, with x = c,
+    # 2 a^2 x (1 - a x)(1 - x^2) = (I1 + a^2 (1 - x^2)) [a (1 - x^2) + x (1 - a x)]
+    x = np.poly1d([1.0, 0.0])
+    s2, arm = 1 - x**2, 1 - a * x
+    flat = (I1 + a * a * s2) * (a * s2 + x * arm) - 2 * a * a * x * arm * s2
+    c = np.array([root.real for root in flat.roots if abs(root.imag) < 1e-9 and abs(root.real) < 1])
+    s = np.sqrt(1 - c * c)
+    return float(np.min((I1 + (a * s) ** 2) / (abs(a * (1 - a * c)) * s)))
 
 
 def check_balance(top: Top, friction: Friction) -> None:

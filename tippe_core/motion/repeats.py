@@ -16,15 +16,15 @@ from .tally import up_rate, zero
 
 
 @compiled
-def run_all(W: Record, P: Record, log: Array, end: float, steps: int) -> int:
-    """Like run(), without samples, with flights, and skipping repeated nutations: OVER, MORE or ENDED."""
+def run_all(W: Record, P: Record, log: Array, end: float, flies: bool, steps: int) -> int:
+    """Like run(), without samples, and skipping repeated nutations: OVER, MORE or ENDED."""
     limit, none, rows = W.steps + steps, np.zeros(0), np.zeros((0, 0))
     exact = P.delta == 0.0 and P.drag == 0.0
     while True:
-        event = run(W, P, log, none, rows, end, True, exact, limit - W.steps)
+        event = run(W, P, log, none, rows, end, flies, exact, limit - W.steps)
         if event == ROLLS:
             event = nutate(W, P, none, rows, end, limit)
-            if event not in (OVER, MORE) and not happens(W, P, log, event, True):
+            if event not in (OVER, MORE) and not happens(W, P, log, event, flies):
                 continue
         return event if event in (OVER, MORE) else ENDED
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError
+from ..errors import TopError, single
 from ..paper import differences
 from ..paper import equations as eq
 from ..paper.constants import EXACT, Constants, Exact, State, versines
@@ -62,16 +62,18 @@ def roll(
 
 
 class Rolling(Nutation):
-    """The motion without slipping as an object; arguments as in roll(). Each call starts the motion at its times[0].
+    """The motion without slipping as an object; arguments as in roll().
 
     start: the State at the start. period: that of the nutation, in (R/g)^1/2. turning_points: (2,) in rad. phi_advance,
-    psi_advance: rad per period. theta(times) gives theta alone; calling the object with times gives the Trajectory.
+    psi_advance: rad per period. theta(t) gives theta alone, t since the start; calling the object with times gives the
+    Trajectory, which starts at times[0].
     """
 
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
         self.top = top
         with localcontext(EXACT):
             if isinstance(start, State):
+                single("state", start, State)
                 curve, (inner, outer), here = _from_state(top, constants, start)
             else:
                 curve, (inner, outer) = _from_constants(top, constants, start, well)

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite
+from ..errors import TopError, finite, single
 from ..paper.constants import State, versines
 from ..paper.top import Top
 from ..types import Array, Number
@@ -25,7 +25,9 @@ from .preparing import (
     check_balance,
     checked_edge,
     checked_loss,
+    checked_profile,
     checked_rtol,
+    flies,
     gap,
     motion,
     on_table,
@@ -35,6 +37,7 @@ from .preparing import (
 )
 from .records import Record
 from .rolling import Rolling
+from .sinking import ANOTHER_TOUCHES, sunk
 from .smooth import first_below
 from .tally import begin_tally
 from .trajectory import Trajectory, checked_times
@@ -45,9 +48,9 @@ EACH = 32  # steps between two calls of progress
 
 
 def slide(
-    top: Top, state: State, friction: Friction, times: ArrayLike, rtol: float = 1e-9, landing: str = "stop",
+    top: Top, state: State, friction: Friction, times: ArrayLike, rtol: float = 1e-9, landing: str = "plastic",
     edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
-    progress: Callable[[float], object] | None = None,
+    progress: Callable[[float], object] | None = None, profile: ArrayLike | None = None,
 ) -> Trajectory:  # fmt: skip
     """The Trajectory of the motion with friction at the given times.
 
@@ -57,15 +60,17 @@ def slide(
     rtol: 1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy. While a top turns over, in
     900 (R/g)^1/2, C_J changes by about 4 rtol C_J.
 
-    landing: with "stop" the Trajectory ends when the top lifts off, at the last of the times before. With "plastic" it
-    flies and lands without a bounce. In the impact friction follows its own law, with the normal impulse in place of
-    the normal force (impact.py): a law with static friction stops the slip if mu_s is large enough, viscous friction
-    reduces it. The same holds for impacts of the stem, with either landing. edge: (radius, height above O along axis 3,
-    rounding or 0) in R of the edge of the stem's end, as in Shape.edge; None for a whole sphere. If theta at the start
-    is beyond the angle at which the edge touches, the top starts on the edge. rolling_resistance: delta in R, a torque
-    -delta F_z omega_h/|omega_h| against the horizontal part of omega, 1e-4 to 1e-3 for wood (smoothed below 1e-3
+    landing: with "plastic" a top that leaves the table flies and lands without a bounce. With "stop" the Trajectory
+    ends when it lifts off, at the last of the times before. In the impact friction follows its own law, with the normal
+    impulse in place of the normal force (impact.py): a law with static friction stops the slip if mu_s is large enough,
+    viscous friction reduces it. The same holds for impacts of the stem, with either landing. edge: (radius, height
+    above O along axis 3, rounding or 0) in R of the edge of the stem's end, as in Shape.edge; None for a whole sphere.
+    If theta at the start is beyond the angle at which the edge touches, the top starts on the edge. rolling_resistance:
+    delta in R, a torque -delta F_z omega_h/|omega_h| against the horizontal part of omega (smoothed below 1e-3
     (g/R)^1/2). air_drag: k in MR^2 (g/R)^1/2, a torque -k omega. Both add to heat. progress: is called now and then
-    with the time reached; an exception that it raises stops the run and is passed on.
+    with the fraction of the time that is done; an exception that it raises stops the run and is passed on. profile:
+    (k, 2), radius and height above O in R of the whole body, as from Shape.profile: the motion ends where a part of it
+    other than the ball and the edge is below the table at one of the times.
 
     events: (time, name), located to 1e-9. "sticks" and "slips" (laws with static friction; "slips" also when the slip
     passes through 0 and reverses without a halt); "lifts off" and "lands", or "lands on its
@@ -73,6 +78,8 @@ def slide(
     left the table), "falls back on its ball". If there is a series of ever smaller bounces between the two, rtol
     determines how many are listed. These events end the Trajectory early, without a sample at the event:
     "lifts off" if landing is to stop it;
+    "another part touches" if there is a profile, and at one of the times a point of it is more than 1e-3 R below the
+    table;
     "rim touches" if the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball
     without a stem), because what follows is not computed;
     "stands upright" if it is on its stem within 1e-3 rad of flat, without enough energy to tip over the rim of the
@@ -86,21 +93,28 @@ def slide(
     impacts. supports: what carries the top, and from when on. Raises TopError for bad input, and if the friction is so
     strong that no normal force balances it on the ball (Painleve's paradox).
     """
-    if not isinstance(state, State):
-        raise TopError("state", state, "State", code="wrong-kind")
-    if not isinstance(friction, LAWS):
-        allowed = "Coulomb(mu_k, mu_s) | Viscous(gamma) | SmoothedCoulomb(mu, eps) | Contensou(mu, radius)"
-        raise TopError("friction", friction, allowed, code="wrong-kind")
+    single("top", top, Top)
+    single("state", state, State)
+    single("friction", friction, *LAWS)
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
         raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
     check_balance(top, friction)
     rtol = checked_rtol(rtol)
-    if landing not in ("stop", "plastic"):
-        raise TopError("landing", landing, '"stop" | "plastic"', code="wrong-kind")
     losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
     P = problem(top, friction, checked_edge(edge), losses, rtol)
-    return _Run(top, friction, P, landing == "plastic", progress)(state, t)
+    moved = _Run(top, friction, P, flies(landing), progress)(state, t)
+    return moved if profile is None else _above(moved, checked_profile(profile))
+
+
+def _above(moved: Trajectory, profile: Array) -> Trajectory:
+    """A Trajectory until another part of the body touches."""
+    first = sunk(moved, profile)
+    if first == len(moved):
+        return moved
+    time, kept = float(moved.t[first]), moved[: max(first, 1)]
+    events, supports = (tuple(x for x in each if x[0] < time) for each in (moved.events, moved.supports))
+    return replace(kept, events=(*events, (time, ANOTHER_TOUCHES)), supports=supports or kept.supports)
 
 
 def sensitivity(
@@ -185,18 +199,19 @@ class _Run:
         W, P, times = self.motion, self.P, self.times
         exact = P.delta == P.drag == 0.0
         each = EACH if self.progress else MOST_STEPS
+        begins, lasts = float(times[0]), float(times[-1] - times[0]) or 1.0
         while True:
             status = run(W, P, self.log, times, self.rows, times[-1], self.flies, exact, each)
             if status == ROLLS:
                 if self.progress:
-                    self.progress(float(W.y[12]))
+                    self.progress(min(1.0, (float(W.y[12]) - begins) / lasts))
                 if self._roll():
                     return
                 continue
             if status != MORE:
                 return
             if self.progress:
-                self.progress(float(W.y[12]))
+                self.progress(min(1.0, (float(W.y[12]) - begins) / lasts))
             if W.steps >= MOST_STEPS:
                 noted(W, self.log, TOO_MANY_TURNS, *W.modes)
                 return
@@ -224,24 +239,21 @@ class _Run:
             F = rolling(np.append(0.0, t)).force[1:].T
             return P.law.mu_s * F[2] - np.hypot(F[0], F[1]) + SLACK
 
-        def tilt(t: Array) -> Array:
-            return rolling.theta(np.append(0.0, t))[1:]
-
         def room_left(t: Array) -> Array:
-            theta = tilt(t)
+            theta = rolling.theta(t)
             return TOUCH - floor + gap(P, np.cos(theta), np.sin(theta))
 
         found = [(first_below(margin, rolling.period), SLIPS)]
         if P.stem:
             found.append((first_below(room_left, rolling.period), TOUCHES + STEM))
         if P.rim > -2:
-            found.append((first_below(lambda t: np.cos(tilt(t)) - P.rim, rolling.period), RIM))
+            found.append((first_below(lambda t: np.cos(rolling.theta(t)) - P.rim, rolling.period), RIM))
         ends, event = min(found)
         done = int(W.samples)
         last = y[12] + ends
         if np.isnan(W.tally.time_90):
             side = np.sign(np.cos(state.theta))
-            passes = first_below(lambda t: side * np.cos(tilt(t)), rolling.period)
+            passes = first_below(lambda t: side * np.cos(rolling.theta(t)), rolling.period)
             if y[12] + passes <= min(last, times[-1]):
                 W.tally.time_90 = y[12] + passes
         count = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, last)), done)

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..compiled import compiled
-from ..errors import TopError
+from ..errors import TopError, single
 from ..paper import equations as eq
 from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.top import Top, TopNumbers
@@ -64,9 +64,8 @@ class Gliding(Nutation):
     """
 
     def __init__(self, top: Top, state: State) -> None:
-        if not isinstance(state, State):
-            raise TopError("state", state, "State", code="wrong-kind")
-        self.top, self.start, self._inward = top, state, state.theta_dot < 0
+        self.top, self.start = single("top", top, Top), single("state", state, State)
+        self._inward = state.theta_dot < 0
         v, m = (float(x) for x in versines(state.theta))
         with localcontext(EXACT):
             t, w1, w2, w3 = exact_top(top), *(Decimal(w) for w in (state.theta_dot, state.omega2, state.omega3))

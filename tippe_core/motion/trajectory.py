@@ -1,16 +1,17 @@
 """The record that every kind of motion returns."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, numbers
+from ..errors import TopError, finite, numbers
 from ..paper import equations as eq
+from ..paper.constants import State
 from ..paper.top import Top
-from ..types import Array
+from ..types import Array, Bools, Indices
 
 
 class Ledger(NamedTuple):
@@ -49,6 +50,9 @@ class Trajectory:
     sum, and contact and slip are means weighted by the normal forces. In the air slip and force are 0, and contact is
     the point of the table below O.
 
+    len() is n; a slice, or an array of bool or of indices, gives the Trajectory of these instants; at(t) is the State
+    at one time.
+
     jellett, routh, energy, L_3, L_z (n,) and ledger are computed from these arrays, not from the initial values. All
     arrays are read-only.
     """
@@ -84,6 +88,32 @@ class Trajectory:
         for value in vars(self).values():
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __getitem__(self, rows: slice | Bools | Indices) -> Self:
+        """The Trajectory of some of its instants, in order: a slice, an array of bool, or of indices. events and
+        supports up to the last of them are kept."""
+        if not isinstance(rows, slice) and np.ndim(rows) != 1:
+            raise TopError("rows", rows, "Array(n)", code="wrong-kind")
+        arrays: dict[str, Any] = {field.name: value[rows] for field in fields(self)
+                                  if isinstance(value := getattr(self, field.name), np.ndarray)}  # fmt: skip
+        if not len(arrays["t"]):
+            raise TopError("rows", rows, "rows with an instant of it", code="no-rows")
+        last = np.inf if arrays["t"][-1] == self.t[-1] else arrays["t"][-1]
+        events, supports = (tuple(x for x in each if x[0] <= last) for each in (self.events, self.supports))
+        return replace(self, events=events, supports=supports, **arrays)
+
+    def at(self, t: float) -> State:
+        """The State at the time t, from t[0] to t[-1]: linear between the two nearest instants. x, y are those of G."""
+        t = finite("t", t)
+        if not self.t[0] <= t <= self.t[-1]:
+            raise TopError("t", t, "{first:.10g} to {last:.10g}", code="outside-times", first=float(self.t[0]),
+                           last=float(self.t[-1]))  # fmt: skip
+        columns = np.column_stack([self.theta, self.omega, self.phi, self.psi, self.com[:, :2], self.velocity[:, :2]])
+        theta, w1, w2, w3, phi, psi, *place = (float(np.interp(t, self.t, column)) for column in columns.T)
+        return State(theta, w1, 0.0 if theta in (0.0, np.pi) else w2, w3, phi, psi, *place)
 
     @cached_property
     def jellett(self) -> Array:

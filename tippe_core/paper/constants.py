@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite, numbers
+from ..errors import TopError, finite, has_arrays, numbers, set_arrays, single
 from ..types import Array, Scalars
 from . import equations as eq
 from .equations import AnyTop
@@ -20,9 +20,13 @@ EXACT = Context(prec=60, Emin=-999999, Emax=999999)
 LARGEST = 1e12  # in a State: far beyond any real top, and EXACT keeps 36 figures even of the squares
 
 
-@lru_cache(256)
 def exact_top(top: AnyTop) -> TopNumbers:
-    """a, I1, I3 as Decimals."""
+    """a, I1, I3 as Decimals. Raises TopError if this is many tops."""
+    return _exact(top.numbers if isinstance(top, Top) else top)
+
+
+@lru_cache(256)
+def _exact(top: TopNumbers) -> TopNumbers:
     return TopNumbers(Decimal(top.a), Decimal(top.I1), Decimal(top.I3))
 
 
@@ -89,7 +93,8 @@ class State:
 
     x, y, vx, vy may be None; each function then makes its own choice (rolling: the contact point starts at the origin,
     and the velocity is that of rolling). Raises TopError if a value is not finite or exceeds 1e12, or if theta is not
-    in [0, pi].
+    in [0, pi]. Where many motions are meant (slide_many), the fields may be arrays that broadcast; they are then
+    checked where they are used.
     """
 
     theta: float
@@ -104,6 +109,9 @@ class State:
     vy: float | None = None
 
     def __post_init__(self) -> None:
+        if has_arrays(self):
+            set_arrays("state", self)
+            return
         for field in fields(self):
             value = getattr(self, field.name)
             if value is not None or field.name not in ("x", "y", "vx", "vy"):
@@ -136,6 +144,7 @@ class Exact:
     @classmethod
     def of_state(cls, state: State, top: Top) -> Self:
         """From a State, by (30), (31) and (33)."""
+        single("state", state, State)
         v, m = versines(state.theta)
         with localcontext(EXACT):
             t = exact_top(top)

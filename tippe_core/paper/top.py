@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
-from ..errors import TopError, finite
+from ..errors import TopError, finite, has_arrays, set_arrays, single
 from ..types import Number
 
 
@@ -24,7 +24,8 @@ class Top:
     I1  moment of inertia at G about any axis perpendicular to axis 3, in MR^2
     I3  moment of inertia at G about axis 3, in MR^2; I3 <= 2 I1 for any body
 
-    Raises TopError for anything else.
+    Raises TopError for anything else. Where many motions are meant (slide_many, thresholds), the fields may be arrays
+    that broadcast; they are then checked where they are used.
     """
 
     a: float
@@ -32,6 +33,9 @@ class Top:
     I3: float
 
     def __post_init__(self) -> None:
+        if has_arrays(self):
+            set_arrays("top", self)
+            return
         for name in ("a", "I1", "I3"):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
         if self.a >= 1:
@@ -53,7 +57,8 @@ class Top:
 
     @property
     def numbers(self) -> TopNumbers:
-        """a, I1, I3 as floats, for compiled functions."""
+        """a, I1, I3 as floats, for compiled functions. Raises TopError if this is many tops."""
+        single("top", self, Top)
         return TopNumbers(self.a, self.I1, self.I3)
 
 

@@ -16,7 +16,6 @@ from app.model.arrival import TABLE, TILT
 from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
 from app.model.lab.ends import Ends, Key, ends_once, known_ends
 from app.model.lab.keeps import keeps
-from app.model.lab.life import SECONDS
 from app.model.lab.run import (
     PATCH,
     SHIPS,
@@ -25,7 +24,6 @@ from app.model.lab.run import (
     TooLong,
     Toy,
     motion_on,
-    shape_of,
     start_of,
     whole_on,
 )
@@ -205,7 +203,7 @@ class Lab(param.Parameterized):
         """How much of the present run is done, 0 to 1."""
         if self._run is None:
             return 0.0
-        return min(1.0, self._run.reached * shape_of(self.start.toy).scales.time / SECONDS)
+        return self._run.reached
 
     def stop(self) -> None:
         """Stops the present run; the inputs go back to those of the scene that is shown."""

@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from app.model.planes.picture import Setup
-from app.model.planes.run import cut, slid
+from app.model.planes.run import slid
 from tippe_core import TopError, Trajectory
 
 SECONDS = 6.0  # of a run while a hand moves, and at least of any other
@@ -76,4 +76,4 @@ def thinned(moved: Trajectory, time: float, until: float = np.inf) -> Trajectory
     kept[1:-1] = (np.diff(np.floor(rows[:-1]), prepend=0.0) > 0) | changes[:-1] | changes[1:]
     seen = time * moved.t <= until * (1 + 1e-9)
     kept[np.flatnonzero(seen)[-1]] = True
-    return cut(moved, kept & seen, lambda t: time * t <= until)
+    return moved[kept & seen]

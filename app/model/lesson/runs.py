@@ -138,7 +138,7 @@ def slipped() -> Trajectory:
     """The top of the proof with slipping: with an ordinary friction of 0.3 it turns over."""
     found = proof()
     state = State(THROWN_TILT, 0.0, 0.0, found.spin / found.setup.turns)
-    return slide(found.top, state, LAW, np.linspace(0.0, 400.0, 4001), landing="plastic")
+    return slide(found.top, state, LAW, np.linspace(0.0, 400.0, 4001))
 
 
 def on_ball(motion: TableMotion) -> int:

@@ -133,7 +133,7 @@ def run(asked: Map, across: float, up: float, look: Progress | None = None) -> F
     cell = asked.at(across, up)
     frames = int(np.clip(abs(cell.state.omega3) * cell.t_end / TURN, CURVE, MOST_CURVE))
     times, time = np.linspace(0, cell.t_end, frames), cell.scales.time
-    moved = slide(cell.top, cell.state, cell.friction, times, rtol=asked.rtol, landing="plastic", edge=cell.edge,
+    moved = slide(cell.top, cell.state, cell.friction, times, rtol=asked.rtol, edge=cell.edge,
                   progress=look)  # fmt: skip
     stems = [start for start, on in moved.supports if on == "stem"]
     return Found(

@@ -198,7 +198,7 @@ def _life(here: Cell, look: Look | None) -> Life:
     """The run at the bead for MOST_SECONDS."""
     time = here.scales.time
     times = MOST_SECONDS / time * np.linspace(0, 1, DRIFT) ** 2
-    moved = slide(here.top, here.state, here.friction, times, rtol=1e-6, landing="plastic", edge=here.edge,
+    moved = slide(here.top, here.state, here.friction, times, rtol=1e-6, edge=here.edge,
                   progress=look)  # fmt: skip
     stems = [start * time for start, on in moved.supports if on == "stem"]
     on_it = [on in ("stem", "both") for _, on in moved.supports]

@@ -72,7 +72,7 @@ class Model:
         state = State(v["tilt"], v["tilt_rate"], v["across"], v["spin"])
         if self.name == "rolling":
             return roll(top, None, times, state)
-        return slide(top, state, self._friction(), times, rtol=RTOL, landing="plastic", edge=self.edge,
+        return slide(top, state, self._friction(), times, rtol=RTOL, edge=self.edge,
                      rolling_resistance=v["rolling_resistance"], air_drag=v["air_drag"])  # fmt: skip
 
     def _friction(self) -> Friction:

@@ -121,12 +121,12 @@ class Planes(param.Parameterized):
     @property
     def share(self) -> float:
         """How much of the present run is done, 0 to 1."""
-        return min(1.0, self._reached / self._running.seconds) if self._run else 1.0
+        return self._run.reached if self._run else 1.0
 
     @property
     def _reached(self) -> float:
         """The time of the motion reached so far, s."""
-        return self._run.reached * self._running.scales.time if self._run else 0.0
+        return self._run.reached * self._running.seconds if self._run else 0.0
 
     def stop(self) -> None:
         """Stops the present run; the last picture stays, with a sentence."""

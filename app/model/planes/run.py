@@ -4,7 +4,7 @@ It runs in a thread, which has no page, so it is told in which language to say w
 """
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -39,7 +39,6 @@ from tippe_core import (
     outcome,
     roll,
     slide,
-    sunk,
 )
 from tippe_core.types import Array, Bools, Number
 
@@ -50,8 +49,8 @@ Progress: TypeAlias = Callable[[float], object]
 
 
 def solve(settings: Settings, progress: Progress | None = None) -> Picture:
-    """The Picture. progress: called with the time reached; what it raises stops the run. Raises TopError, whose name is
-    the input at fault."""
+    """The Picture. progress: called with the fraction done; what it raises stops the run. Raises TopError, whose name
+    is the input at fault."""
     top, state, times = settings.top, settings.state, settings.times
     check_room(settings, state)
     runs = {
@@ -80,10 +79,9 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
 
 
 def slid(settings: Setup, state: State, times: Array, progress: Progress | None) -> Trajectory:
-    moved = slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing,
-                  edge=settings.edge, progress=progress)  # fmt: skip
-    first = sunk(moved, body(settings.shape)) if settings.edge else len(moved.t)
-    return moved if first == len(moved.t) else _until(moved, max(first, 1), float(moved.t[first]), ANOTHER)
+    return slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing,
+                 edge=settings.edge, progress=progress,
+                 profile=body(settings.shape) if settings.edge else None)  # fmt: skip
 
 
 def check_room(settings: Setup, state: State) -> None:
@@ -104,21 +102,6 @@ def _below(settings: Setup, theta: Array) -> Bools:
     radius, height, rounding = settings.edge
     stands = np.maximum(1, rounding - height * np.cos(theta) + radius * np.sin(theta))
     return np.asarray(stands + lowest(body(settings.shape), theta) < -SUNK)
-
-
-def cut(trajectory: Trajectory, rows: slice | Bools, so_far: Callable[[float], bool]) -> Trajectory:
-    """These rows of a Trajectory, with the events and supports whose times satisfy so_far."""
-    arrays: dict[str, Number]
-    arrays = {part.name: value[rows] for part in fields(trajectory)
-              if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
-    events, supports = (tuple(x for x in each if so_far(x[0])) for each in (trajectory.events, trajectory.supports))
-    return replace(trajectory, events=events, supports=supports, **arrays)
-
-
-def _until(trajectory: Trajectory, count: int, time: float, event: str) -> Trajectory:
-    """The first rows of a Trajectory, which then ends at that time with that event."""
-    found = cut(trajectory, slice(count), lambda t: t < time)
-    return replace(found, events=(*found.events, (time, event)))
 
 
 def nudged(picture: Picture, progress: Progress | None = None) -> float:
@@ -145,7 +128,7 @@ def clear(motion: Callable[[], Trajectory], settings: Setup, state: State) -> Tr
         return trajectory
     first = max(int(np.argmax(theta >= angle)), 1)
     time = float(np.interp(angle, theta[first - 1 : first + 1], t[first - 1 : first + 1]))
-    return _until(trajectory, first, time, "stem touches")
+    return replace(trajectory[:first], events=((time, "stem touches"),))
 
 
 def for_reader(error: TopError, scales: Scales) -> TopError:

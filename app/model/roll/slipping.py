@@ -86,7 +86,7 @@ def _slipping(top: Top, state: State, mu: float, touch: float | None, period: fl
     times = np.linspace(0, NODS * period, NODS * SAMPLES + 1)
     try:
         # the motion of a whole sphere, so that it can be followed beyond the tilt at which the stem would touch
-        motion = slide(top, state, Contensou(mu, PATCH), times, rtol=RTOL, landing="plastic", progress=_patient())
+        motion = slide(top, state, Contensou(mu, PATCH), times, rtol=RTOL, progress=_patient())
     except (TopError, TooLong):
         return None
     if len(motion.t) < 2 * SAMPLES:
