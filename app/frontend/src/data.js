@@ -24,6 +24,16 @@ export function niceAbove(x) {
 /** @param {string} text @param {Record<string, any>} values */
 export const fill = (text, values) => text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
 
+// Asks Python for something. While Bokeh is connecting again it throws instead: then the page goes on, as without a server.
+/** @template W @param {{ asked: W }} model @param {NoInfer<W>} wish */
+export function ask(model, wish) {
+  try {
+    model.asked = wish;
+  } catch (error) {
+    if (!(error instanceof DOMException)) throw error;
+  }
+}
+
 // Runs once before the next paint, however often it was called before then.
 /** @param {() => void} run @returns {Later} */
 export function coalesce(run) {

@@ -3,7 +3,7 @@
 import { Curves } from "../lab/curves.js";
 import { part } from "../lab/parts.js";
 import { Time } from "../lab/time.js";
-import { coalesce } from "../data.js";
+import { ask, coalesce } from "../data.js";
 import { Bar } from "./bar.js";
 import { Graph } from "./graph.js";
 import { PhoneSide } from "./phone_side.js";
@@ -65,14 +65,9 @@ class Lesson {
     document.addEventListener("fullscreenchange", this.onScreen, { signal });
   }
 
-  // The lesson goes on also where this cannot be sent: Bokeh throws while it is connecting again.
   ask(name, value) {
     this.count += 1;
-    try {
-      this.model.asked = [this.count, name, value];
-    } catch (error) {
-      if (!(error instanceof DOMException)) throw error;
-    }
+    ask(this.model, [this.count, name, value]);
   }
 
   // The steps of the part that is shown: the lesson, or the part for theorists.

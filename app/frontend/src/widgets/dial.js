@@ -1,5 +1,5 @@
 import { colours } from "../colours.js";
-import { fill, local } from "../data.js";
+import { ask, fill, local } from "../data.js";
 
 // One control: its name, a slider, a field for a number, words below. Each change is sent to Python as a numbered
 // request. Python's answer is used only if it includes the last request, so a late answer cannot move the slider back.
@@ -117,7 +117,7 @@ class Dial {
   /** @param {number | string} wish @param {boolean} typed */
   ask(wish, typed) {
     this.count += 1;
-    this.model.asked = [this.count, wish, typed];
+    ask(this.model, [this.count, wish, typed]);
   }
 
   /** @param {number} wish */

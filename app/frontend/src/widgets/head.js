@@ -1,4 +1,5 @@
 // The row at the top of the page: the top, the tabs, the level, undo, redo, Share, and a menu with everything else.
+import { ask } from "../data.js";
 import { Choice, part } from "./parts.js";
 import { headStyle } from "./head_style.js";
 
@@ -88,7 +89,7 @@ class Head {
 
   ask(name, value = "") {
     if (["share", "language"].includes(name)) this.open(false);
-    this.model.asked = [++this.count, name, value];
+    ask(this.model, [++this.count, name, value]);
   }
 
   roomOf(kind, chosen) {
