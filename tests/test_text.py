@@ -137,14 +137,6 @@ def test_what_the_bundle_asks_for_is_there(name, script, language):
     assert wanted <= known
 
 
-def bare(words):
-    """The text without HTML elements, CSS rules, and calls."""
-    words = re.sub(r"<(style|script)\b.*?</\1>", " § ", words, flags=re.DOTALL)
-    for other in (r"<[^<>]*>?", *2 * [r"[^{}]*\{[^{}]*:[^{}]*\}"], *3 * [r"[\w-]+\([^()]*\)"]):
-        words = re.sub(other, " § ", words)
-    return words
-
-
 # ---- which language a page speaks ----
 
 
