@@ -13,8 +13,8 @@ k (horizontal) is friction over N, opposite in sign; the law k(u) of the slip u 
 from dataclasses import dataclass
 
 import numpy as np
-from rigid_body import euler_quaternion
 from references import kept
+from rigid_body import euler_quaternion
 from scipy.integrate import solve_ivp
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -137,7 +137,7 @@ def slid(top, friction, quaternion, omega, velocity, com, times, rtol, rim, is_o
 
 
 def stored(top, friction, quaternion, omega, velocity, com, times, rtol=1e-12, rim=None, is_on_ball=True):
-    """The Motion of integrate() under a law of friction, on the ball, on the stem's rim (radius, height), or on both."""
+    """The Motion of integrate() under a law of friction, on the ball, on a stem's rim (radius, height), or on both."""
     return Motion(*slid(top, friction, quaternion, omega, velocity, com, times, rtol, rim, is_on_ball))
 
 

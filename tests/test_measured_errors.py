@@ -22,7 +22,7 @@ START = {"tilt": 0.6, "tilt_rate": 0.2, "across": 0.5, "spin": 8.0}
 TRUE = model_of("rolling", TOP, SCALES).with_values(START)
 T = np.arange(60) / 120
 NOISE = {"tilt": 0.02, "spin": 3.0, "azimuth": 0.02, "precession": 3.0}  # rad, rad/s
-DRAWS = 30
+DRAWS = 60
 CHANCE = 3 / np.sqrt(2 * DRAWS)  # of a standard deviation of so many
 
 
