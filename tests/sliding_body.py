@@ -13,6 +13,7 @@ k (horizontal) is friction over N, opposite in sign; the law k(u) of the slip u 
 from dataclasses import dataclass
 
 import numpy as np
+from references import kept
 from rigid_body import euler_quaternion
 from scipy.integrate import solve_ivp
 
@@ -125,6 +126,19 @@ def integrate(top, law, quaternion, omega, velocity, com, times, rtol=1e-12, con
     start = np.concatenate([quaternion, omega, velocity, com, [0.0]])
     y = solve_ivp(rates, (times[0], times[-1]), start, "DOP853", times, rtol=rtol, atol=rtol).y.T
     return Motion(y[:, :4], y[:, 4:7], y[:, 7:10], y[:, 10:13], y[:, 13])
+
+
+@kept
+def slid(top, friction, quaternion, omega, velocity, com, times, rtol, rim, is_on_ball):
+    """What integrate() gives, from what can be stored."""
+    contacts = [*([sphere(top)] if is_on_ball else []), edge(top, *rim)] if rim else None
+    moved = integrate(top, lambda u: friction.k(u @ u) * u, quaternion, omega, velocity, com, times, rtol, contacts)
+    return moved.quaternion, moved.omega, moved.velocity, moved.com, moved.work
+
+
+def stored(top, friction, quaternion, omega, velocity, com, times, rtol=1e-12, rim=None, is_on_ball=True):
+    """The Motion of integrate() under a law of friction, on the ball, on a stem's rim (radius, height), or on both."""
+    return Motion(*slid(top, friction, quaternion, omega, velocity, com, times, rtol, rim, is_on_ball))
 
 
 def linearised(top, law, pole, spin):

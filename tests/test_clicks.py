@@ -1,25 +1,22 @@
 """Each click in a figure counts. Bokeh calls the second of two quick ones a doubletap, and not a tap as well."""
 
 import ast
-from pathlib import Path
 
-import pytest
 from bokeh.events import DoubleTap, Tap
 from bokeh.models import CustomJS
+from text_files import APP, sources, tree, wrong_in
 
-import app
 from app.widgets.plots import on_click, on_pointer, plain
 
-APP = Path(app.__file__).parent
 LISTENS = "widgets/plots.py"  # where a figure is made to listen to clicks
 NAMES = "frontend/src/figures/seeking.js"  # where gestures are named
 
 
-@pytest.mark.parametrize("path", sorted(APP.rglob("*.py")), ids=lambda path: path.relative_to(APP).as_posix())
-def test_no_figure_listens_to_the_first_of_two_clicks_alone(path):
-    words = {node.value for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.Constant)}
-    allowed = path == APP / LISTENS or path == APP / "server" / "messages.py"  # the latter: what a browser may send
-    assert allowed or "tap" not in words
+def test_no_figure_listens_to_the_first_of_two_clicks_alone():
+    allowed = APP / LISTENS, APP / "server" / "messages.py"  # the latter: what a browser may send
+    others = [path for path in sources("*.py") if path not in allowed]
+    assert wrong_in(others, lambda path: [node.lineno for node in ast.walk(tree(path))
+                                          if isinstance(node, ast.Constant) and node.value == "tap"]) == {}  # fmt: skip
 
 
 def test_the_browser_takes_the_second_click_for_a_click():

@@ -15,7 +15,7 @@ from app.model.maps.choice import MapChoice
 from app.model.playing import Playing
 from app.share.parts import Clock
 from app.state.codecs import Body, Number
-from app.state.keep import EXPLORER, LONGEST_QUERY, STEPS, Keep, explorer_of, read, usual
+from app.state.keep import EXPLORER, LONGEST_QUERY, Keep, explorer_of, read, usual
 from app.state.names import of
 from app.text import say, speaking
 from app.widgets.controls import Controls
@@ -198,18 +198,18 @@ def test_back_and_forth():
     assert (explorer.mu_s, explorer.K_J) == (0.5, 6.7)
 
 
-@pytest.mark.slow
-def test_the_steps_are_bounded():
+def test_the_steps_are_bounded(monkeypatch):
+    monkeypatch.setattr("app.state.keep.STEPS", 10)
     explorer = Explorer()
     keep = kept(explorer)
-    for i in range(STEPS + 20):
+    for i in range(15):
         explorer.param.update(upper=bool(i % 2), mu_s=0.1 + i / 1000)
         keep.at_rest()
     steps = 0
     while keep.can_undo:
         keep.undo()
         steps += 1
-    assert steps == STEPS
+    assert steps == 10
 
 
 def test_what_cannot_be_is_neither_kept_nor_a_step():

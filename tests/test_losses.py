@@ -161,7 +161,7 @@ from tippe_core import *
 paper, edge, out = Top.paper(), TruncatedSphere.paper().edge, []
 for state, friction in ((State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)), (State(0.8, 0, 0, 4.0), Coulomb(0.5)),
                         (State(1.9, 0.5, 0, -3.0), Viscous(0.3)), (State(0.8, 9.0, 0, 3.0), Contensou(0.3, 0.05))):
-    moved = slide(paper, state, friction, [0, 0.4, 0.8], rtol=1e-8, edge=edge)
+    moved = slide(paper, state, friction, [0, 0.2, 0.4], rtol=1e-7, edge=edge)
     out.append([moved.quaternion.tolist(), moved.heat.tolist(), [t for t, _ in moved.events]])
 print(json.dumps(out))
 """

@@ -122,7 +122,6 @@ def test_size_mass_and_gravity_leave_the_dimensionless_motion(top, state, R, M, 
     np.testing.assert_allclose(constants.E * scales.energy, energy, rtol=1e-11, atol=1e-12 * scales.energy)
 
 
-@settings(max_examples=25)
 @given(tops(), states, numbers(0.5, 20))
 @example(PAPER, SPINNING, 10.0)
 @example(PAPER, ROCKING, 7.0)
@@ -143,7 +142,6 @@ def test_time_reversal(top, state, duration):
     np.testing.assert_allclose(home.com[1], there.com[0], rtol=0, atol=1e-10 * growth * (1 + abs(top.a)))
 
 
-@settings(max_examples=25)
 @given(tops(), states)
 @example(PAPER, SPINNING)
 def test_nutation_in_and_out_is_one_curve(top, state):
@@ -161,7 +159,6 @@ def test_nutation_in_and_out_is_one_curve(top, state):
     )
 
 
-@settings(max_examples=25)
 @given(tops(), states, numbers(0.1, 30))
 @example(PAPER, SPINNING, 10.0)
 @example(PAPER, State(0.5, -0.7, 3.0, 8.8), 10.0)
@@ -184,14 +181,13 @@ def test_mirror(top, state, duration):
     assert (turned.K_J, turned.K_R, turned.E) == (-given_constants.K_J, -given_constants.K_R, given_constants.E)
 
 
-@settings(max_examples=30)
 @given(tops(), numbers(-8, 8), numbers(0.5, 15), st.sampled_from([None, 0.2, 0.5, 2.0]))
 @example(PAPER, 7.0, 10.0, 0.5)
 def test_limit_energy_in_a_mirror(top, K_J, K_R, mu_s):
     np.testing.assert_allclose(limit_energy(top, K_J, K_R, mu_s), limit_energy(top, -K_J, -K_R, mu_s), rtol=1e-11)
 
 
-@settings(max_examples=25)
+@settings(max_examples=10)
 @given(tops(), states)
 @example(PAPER, SPINNING)
 @example(Top(0.3, 131 / 350, 0.4), State(3.1, 1.0, 2.0, -4.0))

@@ -4,9 +4,9 @@ side."""
 import colorsys
 import json
 import re
-from pathlib import Path
 
 import pytest
+from text_files import APP, sources, text, wrong_in
 
 from app.model import arrival, ends, regimes
 from app.model.colours import COLOURS, FAINT, GREY, INK, ON_LIGHT
@@ -14,9 +14,7 @@ from app.tabs.planes.plots import IN_RIBBON
 from app.text import LANGUAGES, listed
 from tippe_core import Coulomb, State, Top, slide_many
 
-APP = Path(__file__).parent.parent / "app"
-SOURCES = [path for kind in ("*.py", "*.js", "*.html", "*.css", "*.json", "*.toml", "*.svg") for path in APP.rglob(kind)
-           if not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
+SOURCES = sources("*.py", "*.js", "*.html", "*.css", "*.json", "*.toml", "*.svg")
 
 
 def read(name):
@@ -53,11 +51,10 @@ def test_what_the_core_calls_an_end_is_in_the_list():
     assert {*many.end.ravel()} <= {*ends.NAMES}
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.name)
-def test_there_is_no_second_table_of_ends(path):
-    if path.name != "ends.json":
-        own = {colour.lower() for colour in ends.COLOUR.values()}
-        assert not own & {f"#{digits}" for digits in colours_in(path.read_text(encoding="utf-8"))}
+def test_there_is_no_second_table_of_ends():
+    own = {colour[1:].lower() for colour in ends.COLOUR.values()}
+    others = [path for path in SOURCES if path.name != "ends.json"]
+    assert len(others) > 300 and wrong_in(others, lambda path: own & {*colours_in(text(path))}) == {}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -78,15 +75,17 @@ def test_regimes_that_stand_beside_each_other_are_told_apart():
         assert len({regimes.COLOUR[code] for code in beside}) == len(beside)
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.name)
-def test_there_is_no_second_table_of_regimes(path):
-    text = path.read_text(encoding="utf-8")
-    if path.name in ("regimes.json", "regimes.toml"):
-        return
-    assert not re.search(r"""["']would_(slip|lift)["']|\bwould_(slip|lift)( =|:)""", text)  # their names
-    assert not re.search(r"""["']roll["'].{0,40}["']slip["'].{0,40}["']air["']""", text)  # the core's
-    if path.stem != "regimes":
-        assert not re.search(r"\b(ROLLS|WOULD_SLIP|WOULD_LIFT|SLIPS|FLIES|ENDS)(, \w+)* = ", text)  # their codes
+NAMES = re.compile(r"""["']would_(slip|lift)["']|\bwould_(slip|lift)( =|:)""")
+OF_THE_CORE = re.compile(r"""["']roll["'].{0,40}["']slip["'].{0,40}["']air["']""")
+CODES = re.compile(r"\b(ROLLS|WOULD_SLIP|WOULD_LIFT|SLIPS|FLIES|ENDS)(, \w+)* = ")
+
+
+def test_there_is_no_second_table_of_regimes():
+    def wrong(path):
+        patterns = (NAMES, OF_THE_CORE) if path.stem == "regimes" else (NAMES, OF_THE_CORE, CODES)
+        return [found[0] for pattern in patterns for found in pattern.finditer(text(path))]
+
+    assert wrong_in([path for path in SOURCES if path.name not in ("regimes.json", "regimes.toml")], wrong) == {}
 
 
 HEX = re.compile(r"(?:#|0x)([0-9a-f]{6}|[0-9a-f]{3})(?:[0-9a-f]{2})?\b", re.IGNORECASE)
@@ -97,11 +96,11 @@ NAMED = re.compile(
     r"""["']?\]?\s*[:=]\s*["'`]?(#|0x)[0-9a-f]""", re.IGNORECASE)  # fmt: skip
 
 
-def colours_in(text):
+def colours_in(words):
     """Each colour as six digits in lower case."""
-    for digits in HEX.findall(text):
+    for digits in HEX.findall(words):
         yield (digits if len(digits) == 6 else "".join(2 * digit for digit in digits)).lower()
-    for triple in TRIPLE.findall(text):
+    for triple in TRIPLE.findall(words):
         yield "".join(f"{int(part):02x}" for part in triple)
 
 
@@ -115,19 +114,19 @@ OURS = {name: colour[1:].lower() for name, colour in COLOURS.items() if name not
 OF_ITS_OWN = ("omega", "normal", "flies")  # hues that nothing else uses, so that their shades are recognised
 
 
-def second_colours(text):
+def second_colours(words):
     """The colours in a text that belong to a quantity or a regime."""
-    for digits in colours_in(text):
+    for digits in colours_in(words):
         where, much = hue(digits)
         shade = much > 0.15 and any(abs(where - hue(OURS[name])[0]) < 12 for name in OF_ITS_OWN)
         if shade or digits in OURS.values():
             yield digits
-    yield from (found[0] for found in NAMED.finditer(text))
+    yield from (found[0] for found in NAMED.finditer(words))
 
 
-@pytest.mark.parametrize("path", [path for path in SOURCES if path.name != "colours.json"], ids=lambda path: path.name)
-def test_there_is_no_second_table_of_colours(path):
-    assert [*second_colours(path.read_text(encoding="utf-8"))] == []
+def test_there_is_no_second_table_of_colours():
+    others = [path for path in SOURCES if path.name != "colours.json"]
+    assert wrong_in(others, lambda path: [*second_colours(text(path))]) == {}
 
 
 @pytest.mark.parametrize("second", [

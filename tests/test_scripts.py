@@ -6,6 +6,7 @@ from pathlib import Path
 
 import bokeh.server
 import pytest
+from text_files import sources, text, tree, wrong_in
 
 import app.page.page  # noqa: F401  all components
 from app.bundle import Bundled, inlined
@@ -13,9 +14,7 @@ from app.bundle import Bundled, inlined
 FRONTEND = Path(__file__).parent.parent / "app/frontend"
 BORROWED = FRONTEND / "src/borrowed.js"
 BOKEH = Path(bokeh.server.__file__).parent / "static/js/bokeh.js"
-PYTHON = [path for path in FRONTEND.parent.rglob("*.py") if "node_modules" not in path.parts]
-PAGES = [path for path in FRONTEND.parent.rglob("*.html") if "node_modules" not in path.parts]
-INLINED = [path for path in FRONTEND.parent.rglob("*.js") if not {"frontend", "static"} & {*path.parts}
+INLINED = [path for path in sources("*.js") if "frontend" not in path.parts
            and path.name not in ("call.js", "ticks.js")]  # fmt: skip
 OTHERS = [path for path in FRONTEND.glob("src/**/*.js") if path != BORROWED]
 
@@ -44,44 +43,42 @@ def test_what_is_borrowed_of_three_is_still_there():
         assert name in BORROWED.read_text(encoding="utf-8") and name in script
 
 
-@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.name)
-def test_no_other_script_borrows(path):
+def test_no_other_script_borrows():
     """A name that begins with _ is private to its library; our own for tests is __tippe."""
-    private = {*re.findall(r"\.(_\w+)", path.read_text(encoding="utf-8"))} - {"__tippe"}
-    assert private == set()
-    assert not re.search(r"canvas_view|find_one|tool_views|ui_event_bus", path.read_text(encoding="utf-8"))
+    private = r"\._(?!_tippe\b)\w+|canvas_view|find_one|tool_views|ui_event_bus"
+    assert wrong_in(OTHERS, lambda path: re.findall(private, text(path))) == {}
 
 
-@pytest.mark.parametrize("path", PYTHON, ids=lambda path: path.name)
-def test_no_javascript_stands_in_python(path):
-    strings = [node.value for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-               if isinstance(node, ast.Constant) and isinstance(node.value, str)]  # fmt: skip
-    found = [
-        text
-        for text in strings
-        if re.search(r"=> ?\{|\b(const|let) [\w{\[]+.* = |addEventListener|document\.\w+\(", text)
-    ]
-    assert found == []
+def scripts_in(path):
+    """The strings of a module that are JavaScript."""
+    script = re.compile(r"=> ?\{|\b(const|let) [\w{\[]+.* = |addEventListener|document\.\w+\(")
+    strings = (node.value for node in ast.walk(tree(path)) if isinstance(node, ast.Constant))
+    return [each for each in strings if isinstance(each, str) and script.search(each)]
 
 
-@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
-def test_no_javascript_stands_in_html(path):
-    """Scripts in a page are files, which tsc and ESLint check, or data."""
-    text = path.read_text(encoding="utf-8")
-    scripts = re.findall(r"<script([^>]*)>(.*?)</script>", text, re.DOTALL)
-    assert [inside for _, inside in scripts if not re.fullmatch(r"\$\w+|\{\{ \w+ \}\}", inside)] == []
-    assert not re.search(r"""\son\w+=|javascript:""", text)
+def test_no_javascript_stands_in_python():
+    assert wrong_in(sources("*.py"), scripts_in) == {}
 
 
-@pytest.mark.parametrize("path", INLINED, ids=lambda path: path.name)
-def test_a_script_that_stands_in_a_page_ends_where_it_ends(path):
-    assert not re.search(r"</script|<!--", path.read_text(encoding="utf-8"), re.I)
-    assert inlined(path).startswith("{\n") and inlined(path).endswith("\n}")
+def scripts_of(path):
+    """Those of a page that are no files, which tsc and ESLint check, and no data."""
+    scripts = re.findall(r"<script[^>]*>(.*?)</script>", text(path), re.DOTALL)
+    found = [inside for inside in scripts if not re.fullmatch(r"\$\w+|\{\{ \w+ \}\}", inside)]
+    return found + re.findall(r"""\son\w+=|javascript:""", text(path))
 
 
-@pytest.mark.parametrize("kind", Bundled.__subclasses__(), ids=lambda kind: kind.__name__)
-def test_no_component_hides_what_all_have(kind):
-    assert "is_new" not in vars(kind) and isinstance(vars(kind).get("says", classmethod(len)), classmethod)
+def test_no_javascript_stands_in_html():
+    assert wrong_in(sources("*.html"), scripts_of) == {}
+
+
+def test_a_script_that_stands_in_a_page_ends_where_it_ends():
+    assert wrong_in(INLINED, lambda path: re.findall(r"(?i)</script|<!--", text(path))) == {}
+    assert len(INLINED) > 2 and all(re.fullmatch(r"\{\n.*\n\}", inlined(path), re.S) for path in INLINED)
+
+
+def test_no_component_hides_what_all_have():
+    for kind in Bundled.__subclasses__():
+        assert "is_new" not in vars(kind) and isinstance(vars(kind).get("says", classmethod(len)), classmethod), kind
 
 
 # ---- what the scripts tell one another ----
@@ -111,12 +108,12 @@ def test_the_list_of_events_is_whole():
     assert all(carries for *_, carries in rows)
 
 
-@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.name)
-def test_no_script_asks_another_by_the_window(path):
-    """Modules import each other. The window holds only reports for tests, and the functions that Bokeh's callbacks
-    call."""
-    text = path.read_text(encoding="utf-8")
-    assert {*re.findall(r"\bwindow\.(\w*tippe\w*)", text)} <= {"__tippe", "tippeCallbacks"}
-    assert not re.search(r"\bwindow\[|\bglobalThis\b", text)
-    if "__tippe" in text:  # which is set there, and never read
-        assert not re.search(r"__tippe\.\w+\(", text)
+def asked_by_the_window(path):
+    """What a script finds there but the functions that Bokeh's callbacks call, and reports for tests, never read."""
+    window = r"\bwindow\.(?!__tippe\b|tippeCallbacks\b)\w*tippe\w*|\bwindow\[|\bglobalThis\b|__tippe\.\w+\("
+    return re.findall(window, text(path))
+
+
+def test_no_script_asks_another_by_the_window():
+    """Modules import each other."""
+    assert wrong_in(OTHERS, asked_by_the_window) == {}

@@ -30,8 +30,23 @@ def every(language):
 
 
 @cache
+def text(path):
+    return path.read_text(encoding="utf-8")
+
+
+@cache
 def tree(path):
-    return ast.parse(path.read_text(encoding="utf-8"))
+    return ast.parse(text(path))
+
+
+def sources(*kinds):
+    """The files of these kinds that are written by hand, in app/."""
+    return sorted(path for kind in kinds for path in APP.rglob(kind) if not {"node_modules", "static"} & {*path.parts})
+
+
+def wrong_in(paths, wrong):
+    """{path: what is wrong there} of the files in which wrong(path) finds anything."""
+    return {path.relative_to(APP.parent).as_posix(): found for path in paths if (found := wrong(path))}
 
 
 MODULES = sorted(path for path in APP.rglob("*.py") if not {"node_modules", "text"} & {*path.parts})
