@@ -5,6 +5,7 @@ import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from itertools import cycle
 
 import numpy as np
 import pytest
@@ -33,7 +34,7 @@ def codes(motion):
 # ---- the story ----
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=25)
 @given(st.sampled_from([TOY, "The paper's tippe top", "Top S", "Loaded sphere"]), st.floats(0, 50), st.floats(0, 175),
        st.floats(0.05, 1))  # fmt: skip
 def test_what_is_marked_is_where_the_tilt_says(toy, spin, tilt, mu):
@@ -55,25 +56,22 @@ def test_what_is_marked_is_where_the_tilt_says(toy, spin, tilt, mu):
         assert np.ptp(theta[t > found["leans"]]) < 20 < theta[-1]
 
 
+STARTS = (-20.0, 60.0), (0.0, 6.0), (5.0, 120.0), (35.0, 6.0), (35.0, 0.0), (0.0, 180.0), (5.0, 60.0), (-20.0, 6.0)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
 def test_every_preset_has_a_story_or_a_sentence_why_not(preset):
-    for spin in (-20.0, 0.0, 5.0, 35.0):
-        for tilt in (0.0, 6.0, 60.0, 120.0, 180.0):
-            for language in LANGUAGES:
-                check_all(preset.name, spin, tilt, language)
-
-
-def check_all(toy, spin, tilt, language):
-    with speaking(language):
-        try:
-            scene = scene_of("three", toy, spin, tilt, 0.3)
-        except TopError as error:
-            assert error.name == "tilt" and error.code == "body-below-table"
-            return
-        assert scene.stories.keys() | scene.refused.keys() == set(TABLES)
-        for table, told in scene.stories.items():
-            check(told, scene.motions[table])
+    for language, (spin, tilt) in zip(cycle(LANGUAGES), STARTS, strict=False):
+        with speaking(language):
+            try:
+                scene = scene_of("three", preset.name, spin, tilt, 0.3)
+            except TopError as error:
+                assert error.name == "tilt" and error.code == "body-below-table"
+                continue
+            assert scene.stories.keys() | scene.refused.keys() == set(TABLES)
+            for table, told in scene.stories.items():
+                check(told, scene.motions[table])
 
 
 def check(told, motion):
@@ -127,12 +125,12 @@ def test_the_papers_top_hangs_on_no_stem_and_is_caught():
 @pytest.mark.slow
 def test_the_strip_of_the_toy_leans_and_then_stands():
     """With elastic contacts: never at 22.3 rev/s, always from 27.06 on."""
-    found = ends_of(TOY, TILT, 0.3)
+    found = ends.known_ends(TOY, TILT, 0.3)  # which ships; a test computes it anew
     assert [segment.code for segment in found.segments] == ["upright", "leans", "stands"]
     assert 22.3 < found.segments[-1].least < 27.06
     assert found.segments[0].least == 0 and found.segments[-1].most == 50
     assert all(a.most == b.least for a, b in zip(found.segments, found.segments[1:], strict=False))
-    assert ends.known_ends(TOY, TILT, 0.3) is found and ends.known_ends(TOY, TILT, 0.31) is None
+    assert ends.known_ends(TOY, TILT, 0.31) is None
 
 
 def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatch):
@@ -204,7 +202,7 @@ def test_what_another_thread_throws_away_is_found_whole_or_not_at_all(monkeypatc
 @pytest.mark.parametrize("toy", ["The paper's tippe top", "Top S"])
 def test_the_strip_is_what_single_runs_do(toy):
     found = ends_of(toy, 6.0, 0.3)
-    for i in (0, 20, 50, 70, 95):
+    for i in (0, 50, 95):
         motion = motion_on("ordinary", toy, float(SPINS[i]), 6.0, 0.3)
         expected = next((code for code in ("stands", "inverted") if code in codes(motion)), None)
         if expected is None:
@@ -214,7 +212,6 @@ def test_the_strip_is_what_single_runs_do(toy):
         assert [segment.code for segment in found.segments].count("leans") > 1  # interleaved, and shown like that
 
 
-@settings(deadline=None)
 @given(st.lists(st.sampled_from("ab"), min_size=1, max_size=30))
 def test_nothing_is_smoothed(letters):
     """Spins that are not marked as mixed are unchanged; mixed ones have another end within two cells."""
