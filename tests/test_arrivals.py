@@ -7,19 +7,18 @@ import resource
 import socket
 import sys
 from itertools import count
-from pathlib import Path
+from types import SimpleNamespace
 from urllib.parse import urlsplit
 
 import pytest
-from serving import served, serving, until
+from serving import served, until
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.web import Application
-from wire import Visitor, get, run
+from wire import Visitor, run
 
+from app import app_hooks
 from app.server import arrivals
-
-pytestmark = pytest.mark.served
 
 FEW = 96  # open files
 UNDER = ["sh", "-c", f'ulimit -n {FEW} && exec "$@"', "sh"]
@@ -54,35 +53,27 @@ def closed(connection):
 
 
 @pytest.mark.slow
-def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
+@pytest.mark.served
+def test_more_connections_than_files_wait_and_come_in_when_those_before_have_gone(tmp_path):
+    """Those who say nothing, and those who do not read what they asked for, are closed. While data are being sent to
+    these, they do not use a second open file each. Who is inside notices nothing."""
+
     async def crowded(server):
         inside = await Visitor.enter(f"{server.url}?tab=roll")
-        connections = await asyncio.to_thread(crowd, server.url, 3 * FEW)
+        silent = await asyncio.to_thread(crowd, server.url, 2 * FEW)
         await asyncio.to_thread(until, lambda: "no more connections for now" in server.log)
         answered, _ = await inside.answer(await inside.set(inside.find("Dial")[0], "asked", [1, 6.5, False]))
         inside.leave()
-        return answered, connections
+        return answered, silent
 
     with served(tmp_path / "log", before=UNDER) as server:
-        answered, connections = run(crowded(server))
+        answered, silent = run(crowded(server))
         assert answered == "OK"
-        # waiting connections are accepted when the first ones have gone, and all are closed in the end
-        until(lambda: all(map(closed, connections)), 60)
-        assert get(server.url)[0] == 200
+        deaf = [greedy(server.url) for _ in range(FEW)]
         assert run(Visitor.enter(server.url)).component("LabView")
+        until(lambda: all(map(closed, silent)))
         assert server.log.count("no more connections") == 1 and len(server.log.splitlines()) < 10
-        for each in connections:
-            each.close()
-
-
-@pytest.mark.slow
-def test_those_who_do_not_read_what_they_asked_for_make_room(tmp_path):
-    """While data is being sent to them, they do not use a second open file each."""
-    with served(tmp_path / "log", before=UNDER) as server:
-        connections = [greedy(server.url) for _ in range(FEW)]
-        assert run(Visitor.enter(server.url)).component("LabView")
-        assert "no more connections" in server.log and len(server.log.splitlines()) < 10
-        for each in connections:
+        for each in silent + deaf:
             each.close()
 
 
@@ -136,13 +127,13 @@ def test_as_many_files_are_asked_for_as_may_be(monkeypatch):
         assert limit[1] == hard and (found is None or limit[0] == found)
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads Linux's list of limits")
-@pytest.mark.parametrize("command", ["app", "panel serve app"])
-def test_the_server_raises_its_limit(command, tmp_path):
-    hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
-    limited = ["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh", sys.executable, "-m", *command.split()]
-    with serving(limited, tmp_path / "log", Path(__file__).parent.parent) as server:
-        [line] = [line for line in Path(f"/proc/{server.process.pid}/limits").read_text().splitlines()
-                  if line.startswith("Max open files")]  # fmt: skip
-        assert int(line.split()[3]) == min(hard, 65_536)
+def test_panel_serve_raises_the_limit_too(monkeypatch):
+    did = []
+    for name in ("compile_beside", "mend", "in_one_thread", "most_files"):
+        monkeypatch.setattr(app_hooks, name, lambda *given, name=name: did.append(name))
+
+    async def load():
+        app_hooks.on_server_loaded(SimpleNamespace(application_context=None))
+
+    run(load())
+    assert "most_files" in did

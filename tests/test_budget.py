@@ -2,13 +2,11 @@
 
 import asyncio
 from contextlib import suppress
-from http.client import HTTPConnection
 from types import SimpleNamespace
 
 import pytest
 from bokeh.document import Document, without_document_lock
 from bokeh.server.session import ServerSession
-from serving import served
 from tornado.ioloop import IOLoop
 from wire import run
 
@@ -16,14 +14,6 @@ from app.borrowed import counted, in_one_thread
 from app.server.door import Budget, budget
 from app.server.sockets import Socket
 from app.turns import Turns
-
-pytestmark = pytest.mark.served
-
-
-@pytest.fixture(scope="module")
-def server(tmp_path_factory):
-    with served(tmp_path_factory.mktemp("server") / "log", sessions=3, sessions_per_address=2, linger=1) as server:
-        yield server
 
 
 class Clock:
@@ -137,14 +127,6 @@ def test_who_spends_more_than_a_share_waits_and_not_for_ever():
     assert budget.wait() == 60.25
     budget.spend(0.01)
     assert budget.wait() == pytest.approx(0.26)
-
-
-def ask(server, method, path):
-    """The answer to a request of any method, with its text."""
-    connection = HTTPConnection(server.root.removeprefix("http://"), timeout=60)
-    connection.request(method, path)
-    answer = connection.getresponse()
-    return answer, answer.read().decode()
 
 
 def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):

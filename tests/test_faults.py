@@ -1,213 +1,317 @@
 """What a person sees when something breaks, with `python -m app`: a sentence, and afterwards all settings are back."""
 
+import asyncio
 import os
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import threading
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from bokeh.util.token import generate_jwt_token, generate_session_id
+from lab_page import DRAWN, TIME, entry, put
 from serving import answers, served, until
-from visiting import Visit, free_port
+from visiting import free_port, go_to, wait
 from watching import LOST as LOST_SERVER
 from wire import Visitor, get, run
 
-pytestmark = pytest.mark.served
+from app.server.door import Door
+from app.server.server import FRESH
+from app.server.settings import Settings
+from app.server.sockets import SOCKETS, Socket
+from app.text import LANGUAGES, say
+from app.widgets.waiting import REASONS, waiting
+from tippe_core import LoadedSphere, save_top
 
 LOST = "No connection to the server"
-BACK = 60_000  # ms
 ROOT = Path(__file__).parent.parent
+SPIN = "Spin, in turns a second"
+HERE = "() => window.Bokeh?.documents?.length > 0"
+TOP = save_top(LoadedSphere(R=0.02345, b=0.008, d=0.010, density=1190.0, core_density=7850.0)).encode()
 
 
-class Stay(Visit):
-    """A visit whose websocket can be cut."""
-
-    def __init__(self, page, url):
-        self.sockets = []
-        page.route_web_socket(re.compile("/ws"), lambda each: self.sockets.append((each, each.connect_to_server())))
-        super().__init__(page, url)
-
-    def cut(self):
-        """Both ends of the connection."""
-        ours, theirs = self.sockets.pop()
-        theirs.close()
-        ours.close(code=1011)
-
-
-def set_K_J(page, text):
-    """Types K_J, waits until the address contains it, and marks the page: reloading removes the mark."""
-    field = page.locator("input[type=text]").first
-    field.fill(text)
-    field.press("Enter")
-    page.wait_for_function("text => location.search.includes('KJ=' + text)", arg=text)
+def set_spin(page, text):
+    """Types the spin of Explore, waits until the address has it, and marks the page: reloading removes the mark."""
+    page.wait_for_function(DRAWN)
+    put(page, SPIN, text)
+    page.wait_for_function("text => location.search.includes('spin=' + text)", arg=text)
     page.evaluate("window.mark = 1")
 
 
-def has_come_back(page, K_J):
-    """Waits until the page has been reloaded with this K_J."""
-    page.wait_for_function("!window.mark && window.__tippe?.top3d?.pictures > 2", timeout=BACK)
-    page.wait_for_function("text => location.search.includes('KJ=' + text)", arg=K_J)
-    assert page.locator("input[type=text]").first.input_value() == K_J
+def has_come_back(page, spin):
+    """Waits until the page has been reloaded with this spin."""
+    page.wait_for_function(f"!window.mark && {DRAWN}")
+    page.wait_for_function("text => location.search.includes('spin=' + text)", arg=spin)
+    wait(page, lambda: entry(page, SPIN).input_value() == spin)
 
 
 @pytest.fixture
 def page(chromium, page_errors):
-    page_errors.allow(LOST_SERVER)
+    page_errors.allow(f"{LOST_SERVER}|Failed to load Bokeh|Error rendering Bokeh items")
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     yield page
     page.close()
 
 
-@pytest.fixture(scope="module")
-def steady(tmp_path_factory):
-    with served(tmp_path_factory.mktemp("steady") / "log") as server:
-        yield server
-        assert "Traceback" not in server.log
+# --- the page is there
 
 
 def goes_on(page):
-    pictures = page.evaluate("__tippe.top3d.pictures")
-    page.wait_for_function("n => __tippe.top3d.pictures > n", arg=pictures)
+    drawn = "__tippe.tops('lab')[0].pictures"
+    page.wait_for_function(f"n => {drawn} > n", arg=page.evaluate(drawn))
 
 
-def test_graphics_that_are_taken_away_come_back_and_after_a_cut_the_page_is_as_it_was(page, steady):
-    visit = Stay(page, steady.url)
-    page.evaluate("""() => {
-        const { prototype } = WebGL2RenderingContext, { fenceSync } = prototype
-        prototype.fenceSync = () => { prototype.fenceSync = fenceSync; return null }
-    }""")  # what a picture finds between the loss and its event
-    page.wait_for_function("WebGL2RenderingContext.prototype.fenceSync.length > 0")
-    goes_on(page)
-    page.evaluate("""() => {
-        const canvases = []
-        const look = (root) => { for (const each of root.querySelectorAll("*")) {
-            if (each.localName == "canvas" && each.getContext("webgl2")) canvases.push(each)
-            if (each.shadowRoot) look(each.shadowRoot) } }
-        look(document)
-        window.lost = canvases.map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"))
-        lost.forEach((each) => each.loseContext())
-    }""")
-    page.get_by_text("graphics memory away").first.wait_for()
-    page.evaluate("lost.forEach((each) => each.restoreContext())")
-    page.get_by_text("graphics memory away").first.wait_for(state="detached")
-    goes_on(page)
-
-    set_K_J(page, "6.5")
-    visit.cut()
-    page.get_by_text(LOST).wait_for()
-    has_come_back(page, "6.5")
-
-
-def test_after_the_server_was_lost_the_page_is_as_it_was(page, tmp_path):
+@pytest.mark.served
+def test_what_is_taken_from_a_page_comes_back_with_all_that_was_set(page, tmp_path):
+    """Its graphics, and then its server, which before refuses nothing of what the page sends."""
     port = free_port()
     with served(tmp_path / "log", port=port) as server:
-        Visit(page, server.url)
-        set_K_J(page, "6.5")
+        page.goto(f"{server.url}?tab=build-a-top")
+        page.locator("input[type=file]").set_input_files(
+            {"name": "top.json", "mimeType": "application/json", "buffer": TOP}
+        )
+        wait(page, lambda: any("23.45" in box.input_value() for box in page.locator("input[type=text]").all()))
+        go_to(page, "Learn")
+        page.locator("input[type=range]:visible").first.press("ArrowRight")
+        go_to(page, "Lab")
+        page.wait_for_function(DRAWN)
+        page.evaluate("""() => {
+            const { prototype } = WebGL2RenderingContext, { fenceSync } = prototype
+            prototype.fenceSync = () => { prototype.fenceSync = fenceSync; return null }
+        }""")  # what a picture finds between the loss and its event
+        page.wait_for_function("WebGL2RenderingContext.prototype.fenceSync.length > 0")
+        goes_on(page)
+        page.evaluate("""() => {
+            const canvases = []
+            const look = (root) => { for (const each of root.querySelectorAll("*")) {
+                if (each.localName == "canvas" && each.getContext("webgl2")) canvases.push(each)
+                if (each.shadowRoot) look(each.shadowRoot) } }
+            look(document)
+            window.lost = canvases.map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"))
+            lost.forEach((each) => each.loseContext())
+        }""")
+        told = page.get_by_text("graphics memory away").locator("visible=true")
+        told.first.wait_for()
+        page.evaluate("lost.forEach((each) => each.restoreContext())")
+        wait(page, lambda: not told.count())
+        goes_on(page)
+        set_spin(page, "29.5")
+        assert "refused" not in server.log and "Traceback" not in server.log
         server.process.kill()
         page.get_by_text(LOST).wait_for()
-        playing = page.evaluate("__tippe.top3d.t")
-        page.wait_for_function("t => __tippe.top3d.t != t", arg=playing)  # the picture goes on without a server
+        page.wait_for_function(f"t => {TIME} != t", arg=page.evaluate(TIME))  # the picture goes on without a server
     with served(tmp_path / "log", port=port):
-        has_come_back(page, "6.5")
-
-
-def test_a_visitor_who_stops_reading_holds_up_nobody(steady):
-    async def stall(url):
-        deaf, other = [await Visitor.enter(f"{url}?tab=roll") for _ in range(2)]
-        for i in range(200):  # and never reads the answers
-            await deaf.set(deaf.find("Dial")[0], "asked", [i, 6 + i / 1000, False])
-        answered, _ = await other.answer(await other.set(other.find("Dial")[0], "asked", [1, 6.5, False]))
-        deaf.leave(), other.leave()
-        return answered
-
-    assert run(stall(steady.url)) == "OK"
-
-
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
-def test_a_full_disk_stops_nobody(tmp_path):
-    port = free_port()
-    with open("/dev/full", "w") as full:
-        process = subprocess.Popen([sys.executable, "-m", "app"], cwd=ROOT, stdout=full, stderr=full,
-                                   env={**os.environ, "TIPPE_PORT": str(port), "TMPDIR": "/dev/full"})  # fmt: skip
-    try:
-        until(lambda: answers(f"http://127.0.0.1:{port}/liveness"), 60)
-        visitor = run(Visitor.enter(f"http://127.0.0.1:{port}/app"))
-        assert visitor.component("LabView")
-    finally:
-        process.terminate()
-        assert process.wait(10) == 0
-
-
-def test_the_page_needs_no_place_to_write():
-    """matplotlib does need one, for its list of fonts, but only when a figure is printed."""
-    code = """
-import sys
-import app.page.page
-print("matplotlib" in sys.modules, "app.share.prints" in sys.modules)"""
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=120)
-    assert done.stdout.split()[-2:] == ["False", "True"], done.stderr[-2000:]
+        has_come_back(page, "29.5")
 
 
 @contextmanager
-def replicas(folder):
-    """Two replicas behind the proxy of compose.yaml, and its root address."""
+def behind(proxy, *servers):
+    """Runs the proxy of compose.yaml in front of these replicas; gives its root address."""
     port = free_port()
+    lines = "\n".join(f"    server {i} {each.root[7:]}" for i, each in enumerate(servers))
+    text = (ROOT / "deploy/haproxy.cfg").read_text(encoding="utf-8").replace("bind :8080", f"bind 127.0.0.1:{port}")
+    proxy.write_text(re.sub(r"(?m)^    server-template.*$", lines, text))
+    process = subprocess.Popen(["haproxy", "-f", proxy], stdout=subprocess.DEVNULL)
+    try:
+        until(lambda: answers(f"http://127.0.0.1:{port}/app"))
+        yield f"http://127.0.0.1:{port}"
+    finally:
+        process.terminate()
+        process.wait()
+
+
+@pytest.mark.served
+@pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
+def test_behind_the_proxy_a_page_goes_to_another_replica_when_its_own_stops_or_is_killed(page, tmp_path):
     common = {"proxy": 1, "secret": "s", "wait": False}
-    with served(folder / "a", **common) as one, served(folder / "b", **common) as two:
-        until(lambda: all(answers(each.root + "/readyz") for each in (one, two)), 60)
-        servers = "\n".join(f"    server {name} {each.root[7:]}" for name, each in (("a", one), ("b", two)))
-        text = (ROOT / "deploy/haproxy.cfg").read_text(encoding="utf-8").replace("bind :8080", f"bind 127.0.0.1:{port}")
-        config = folder / "haproxy.cfg"
-        config.write_text(re.sub(r"(?m)^    server-template.*$", servers, text))
-        proxy = subprocess.Popen(["haproxy", "-f", config], stdout=subprocess.DEVNULL)
-        try:
-            until(lambda: answers(f"http://127.0.0.1:{port}/app"))
-            yield one, two, f"http://127.0.0.1:{port}"
-        finally:
-            proxy.terminate()
-            proxy.wait()
-
-
-def with_sessions(*servers):
-    """Of two replicas, the one that has a session, and the other."""
-    return servers if '"sessions": 1' in get(servers[0].root + "/liveness")[2] else servers[::-1]
-
-
-haproxy = pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
-
-
-@haproxy
-@pytest.mark.long
-def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_its_own(page, tmp_path):
-    with replicas(tmp_path) as (one, two, root):
-        Visit(page, f"{root}/app")
-        page.evaluate("window.mark = 1")
-        mine, other = with_sessions(one, two)
-        other.process.kill()
-        assert page.evaluate("window.mark") == 1
-        set_K_J(page, "6.5")
-        again = {"port": int(other.root.rsplit(":", 1)[1]), "proxy": 1, "secret": "s", "wait": False}
-        with served(tmp_path / "c", **again):
-            mine.process.send_signal(signal.SIGKILL)
+    with served(tmp_path / "a", **common) as one, served(tmp_path / "b", **common) as two:
+        until(lambda: all(answers(each.root + "/readyz") for each in (one, two)))
+        with behind(tmp_path / "haproxy.cfg", one, two) as root:
+            page.goto(f"{root}/app")
+            set_spin(page, "29.5")
+            assert get(f"{root}/metrics")[0] == 403
+            mine, other = (one, two) if '"sessions": 1' in get(one.root + "/liveness")[2] else (two, one)
+            mine.process.send_signal(signal.SIGTERM)
             page.get_by_text(LOST).wait_for()
-            has_come_back(page, "6.5")
+            has_come_back(page, "29.5")
+            assert mine.process.wait(60) == 0 and '"sessions": 0' not in get(other.root + "/liveness")[2]
+            set_spin(page, "30.5")
+            with served(tmp_path / "c", **common | {"port": int(mine.root.rsplit(":", 1)[1])}) as again:
+                until(lambda: answers(again.root + "/readyz"))
+                assert page.evaluate("window.mark") == 1  # what becomes of another replica does not disturb it
+                other.process.kill()
+                page.get_by_text(LOST).wait_for()
+                has_come_back(page, "30.5")
 
 
-@haproxy
-@pytest.mark.long
-def test_behind_the_proxy_a_replica_that_stops_sends_its_pages_to_the_other(page, tmp_path):
-    with replicas(tmp_path) as (one, two, root):
-        Visit(page, f"{root}/app")
-        assert get(f"{root}/metrics")[0] == 403
-        set_K_J(page, "6.5")
-        mine, other = with_sessions(one, two)
-        mine.process.send_signal(signal.SIGTERM)
-        page.get_by_text(LOST).wait_for()
-        has_come_back(page, "6.5")
-        assert mine.process.wait(60) == 0 and '"sessions": 0' not in get(other.root + "/liveness")[2]
+# --- the page is not yet there
+
+SECRET = b"secret"
+MINE = generate_session_id(secret_key=SECRET, signed=True)
+
+
+def session(connections, name=""):
+    return SimpleNamespace(connection_count=connections, id=name, request_expiration=lambda: None)
+
+
+@pytest.mark.parametrize(
+    ("reason", "how"),
+    [
+        ("ended", {"expiration": -1}),
+        ("full", {"sessions": [session(1)], "limits": {"sessions": 1}}),
+        ("crowded", {"sockets": [SimpleNamespace(address="127.0.0.1")], "limits": {"sessions_per_address": 1}}),
+        ("crowded", {"sessions": [session(SOCKETS, MINE)]}),
+        ("stopping", {"stopping": True}),
+        ("stopping", {"stopping": True, "sessions": [session(0, MINE)]}),
+    ],
+)
+def test_the_reason_begins_with_its_name_for_which_the_page_has_words(reason, how):
+    door = Door(Settings(**how.get("limits", {})), SimpleNamespace(sessions=how.get("sessions", [])))
+    door.sockets, door.stopping = how.get("sockets", []), how.get("stopping", False)
+    socket, closed = Socket.__new__(Socket), []
+    socket.application = SimpleNamespace(door=door, secret_key=SECRET)
+    socket.request = SimpleNamespace(remote_ip="127.0.0.1")
+    socket.token = generate_jwt_token(MINE, secret_key=SECRET, signed=True, expiration=how.get("expiration", FRESH))
+    socket.close = lambda *how: closed.append(how)
+    run(socket._enter())
+    [(code, said)] = closed
+    assert code == 4000 and said.startswith(f"{reason}: ") and reason in REASONS
+    for language in LANGUAGES:
+        assert say(f"main.server.{reason}", language) in waiting(language)
+
+
+def test_a_page_on_a_slow_line_has_time():
+    """1.6 MB at 100 kbit/s, or for 200 telephones at 20 Mbit/s, take 130 s."""
+    assert FRESH >= 4 * 130
+
+
+# The first page's token has ended when it is sent.
+OLD = """
+import runpy, sys
+import app.server.pages as pages
+real, first = pages.generate_jwt_token, [-60]
+def given(*arguments, expiration, **named):
+    return real(*arguments, expiration=first.pop() if first else expiration, **named)
+pages.generate_jwt_token = given
+sys.argv[1:] = sys.argv[4:]
+runpy.run_module("app", run_name="__main__", alter_sys=True)
+"""
+
+
+def hold(page, name):
+    """Holds back a script of the page until the function that is returned is called."""
+    held, free = [], []
+    page.route(re.compile(re.escape(name)), lambda route: route.continue_() if free else held.append(route))
+
+    def go():
+        wait(page, lambda: held)
+        free.append(True)
+        for route in held:
+            route.continue_()
+
+    return go
+
+
+@contextmanager
+def guest(url):
+    """Somebody without a browser has the page open until the end of the block."""
+    came, goes = threading.Event(), threading.Event()
+
+    async def stay():
+        visitor = await Visitor.enter(url)
+        came.set()
+        while not goes.is_set():
+            await asyncio.sleep(0.05)
+        visitor.leave()
+
+    thread = threading.Thread(target=run, args=(stay(),))
+    thread.start()
+    until(came.is_set)
+    try:
+        yield
+    finally:
+        goes.set()
+        thread.join()
+
+
+@pytest.mark.served
+def test_a_page_that_is_refused_at_its_socket_says_why_and_comes(page, tmp_path):
+    """Its scripts came too late; there was no room; and somebody in between closed it without a reason."""
+    with served(tmp_path / "log", before=[sys.executable, "-c", OLD], sessions=1, linger=1) as server:
+
+        def comes():
+            page.wait_for_function(HERE)
+            wait(page, lambda: not page.locator("#waiting").count())
+            page.goto("about:blank")
+            until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
+
+        go = hold(page, "/bokeh.min.js")
+        page.goto(server.url, wait_until="commit")
+        page.get_by_text(say("main.server.coming", "en")).wait_for()
+        go()
+        page.get_by_text(say("main.server.ended", "en")).wait_for()
+        comes()  # by itself
+        assert "ended: " in server.log
+
+        go = hold(page, "/bokeh.min.js")
+        page.goto(server.url, wait_until="commit")
+        with guest(server.url):
+            go()
+            page.get_by_text(say("main.server.full", "en")).wait_for()
+        comes()
+
+        sockets = []
+
+        def first_only(socket):
+            sockets.append(socket)
+            if len(sockets) == 1:
+                socket.close(code=1000)
+            else:
+                socket.connect_to_server()
+
+        page.route_web_socket(re.compile("/ws"), first_only)
+        page.goto(server.url, wait_until="commit")
+        page.get_by_text(say("main.server.lost", "en")).wait_for()
+        page.get_by_role("button", name=say("main.server.now", "en")).click()
+        page.wait_for_function(HERE)
+
+
+# --- the system
+
+
+LACKS = """
+import os, runpy, signal, sys
+import bokeh.server.server, numpy, panel, scipy  # which do not ask for it there
+for module, names in ((os, "uname fork getuid geteuid getloadavg"), (signal, "setitimer alarm SIGALRM SIGPROF")):
+    for name in names.split():
+        delattr(module, name)
+sys.modules.update(resource=None, fcntl=None, termios=None)
+sys.argv[1:] = sys.argv[4:]
+runpy.run_module("app", run_name="__main__", alter_sys=True)
+"""
+"""Runs the server without what is missing on Windows, or in its Python; elsewhere SIGALRM is 14."""
+
+
+@pytest.mark.served
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
+def test_it_serves_on_a_full_disk_and_where_the_system_lacks_what_windows_lacks():
+    port = free_port()
+    command, room = [sys.executable, "-c", LACKS, "", "", ""], {"TIPPE_PORT": str(port), "TMPDIR": "/dev/full"}
+    with open("/dev/full", "w") as full:
+        process = subprocess.Popen(command, cwd=ROOT, stdout=full, stderr=full, env=os.environ | room)
+    try:
+        until(lambda: answers(f"http://127.0.0.1:{port}/liveness"))
+        assert run(Visitor.enter(f"http://127.0.0.1:{port}/app")).component("LabView")
+        done = subprocess.run([*command, "--workers=2"], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == 2 and "--workers is '2'; allowed is 1 on this system" in done.stderr
+    finally:
+        process.terminate()
+        assert process.wait(60) == 0
 
 
 LISTENS_IN = """
@@ -215,11 +319,15 @@ import sys
 def heard(event, arguments):
     if event in ("socket.connect", "socket.getaddrinfo", "socket.gethostbyname"):
         print("CALLS", event, arguments[event == "socket.connect"], flush=True)
+    elif event == "import" and arguments[0] == "matplotlib":
+        print("CALLS", *arguments[:1], flush=True)
 sys.addaudithook(heard)
 """
 
 
-def test_the_server_calls_nobody(tmp_path, monkeypatch):
+@pytest.mark.served
+def test_the_server_calls_nobody_and_needs_no_place_to_write(tmp_path, monkeypatch):
+    """matplotlib does need one, for its list of fonts, but only when a figure is printed."""
     (tmp_path / "sitecustomize.py").write_text(LISTENS_IN)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
 
@@ -229,7 +337,8 @@ def test_the_server_calls_nobody(tmp_path, monkeypatch):
         visitor.leave()
         return answered
 
-    with served(tmp_path / "log", address="127.0.0.1") as server:
+    with served(tmp_path / "log", before=[sys.executable, "-c", LACKS]) as server:
         assert run(visit(server.url)) == "OK"
         calls = [line for line in server.log.splitlines() if line.startswith("CALLS")]
+        assert "Traceback" not in server.log
     assert calls == ["CALLS socket.getaddrinfo 127.0.0.1"]  # its own address, to listen on

@@ -1,4 +1,5 @@
-"""A client that is not the page: each message is answered, or the connection is closed with a reason, and another
+"""What a browser may send: each part of the page accepts what it is made for, and nothing that costs the server more
+than the sender. A client that is not the page is answered, or its connection is closed with a reason, and another
 visitor notices nothing. `python tests/test_fuzz.py 10000` sends that many messages."""
 
 import asyncio
@@ -11,20 +12,26 @@ import sys
 import tempfile
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import visitors
+from bokeh.core.serialization import Serialized
+from bokeh.model import DataModel
 from serving import megabytes, served
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 from visiting import of_roll
-from wire import Closed, Visitor, run
+from wire import Closed, Visitor, event, run
 
 import app.page.page  # noqa: F401  (all components)
-from app.server.messages import CHANGES
+from app.model.build.builder import LARGEST_FILE
+from app.server.messages import CHANGES, MOST, Refused, look_at
+from tippe_core import LoadedSphere, save_top
 
 pytestmark = pytest.mark.served
 
+APP = Path(__file__).parent.parent / "app"
 NUMBERS = (0, -1, 7, 1e308, -1e308, 5e-324, 10**400, 2**63, float("nan"), float("inf"), True)
 STRINGS = ("", "7", "nan", "1e999", "−7", "<script>alert(1)</script>", "../../etc/passwd", "\x00", "\ud800", "9" * 5000)
 SPECIAL = (
@@ -71,7 +78,7 @@ def deep(levels):
     return whole
 
 
-def event(draw, visitor):
+def some_event(draw, visitor):
     """One event; most events are for something that a person can set."""
     hand = [id for id, (name, _) in visitor.models.items() if name.startswith(HANDS)]
     model = draw.choice(hand if draw.random() < 0.8 else list(visitor.models))
@@ -95,7 +102,7 @@ def content(draw, visitor):
     """(kind, content) of a message; the content may not be JSON."""
     pick = draw.random()
     if pick < 0.9:
-        return "PATCH-DOC", {"events": [event(draw, visitor) for _ in range(draw.choice((1, 1, 1, 3)))]}
+        return "PATCH-DOC", {"events": [some_event(draw, visitor) for _ in range(draw.choice((1, 1, 1, 3)))]}
     return draw.choice((
         ("PUSH-DOC", {"doc": {}}), ("PULL-DOC-REQ", {}), ("SERVER-INFO-REQ", {}), ("NO-SUCH", {}), ("PATCH-DOC", {}),
         ("PATCH-DOC", {"events": []}), ("PATCH-DOC", {"events": [{}] * 500}), ("PATCH-DOC", []), ("PATCH-DOC", "no"),
@@ -156,36 +163,39 @@ def test_messages_that_no_page_sends(attacked):
     assert any("deep" in text for text in said) and any("no message" in text for text in said)
 
 
-@pytest.mark.parametrize("piece", ["", "null", "[]", "7", '{"msgid": 1}', '{"msgtype": "PATCH-DOC", "num_buffers": 9}'])
-def test_pieces_that_are_no_message(piece, attacked):
-    async def send(url):
-        visitor = await Visitor.enter(url, pull=False)
+async def moves(visitor):
+    """Whether a slider of Roll still moves."""
+    answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
+    return answered == "OK"
+
+
+async def no_messages(server):
+    """Pieces that are no message, one of 100 MB, and a visitor who never reads: another one notices nothing."""
+    innocent, deaf = [await Visitor.enter(of_roll(server.url)) for _ in range(2)]
+    for piece in ("", "null", "[]", "7", '{"msgid": 1}', '{"msgtype": "PATCH-DOC", "num_buffers": 9}'):
+        visitor = await Visitor.enter(server.url, pull=False)
         with suppress(WebSocketClosedError):
             for _ in range(4):
                 await visitor.socket.write_message(piece)
-        await visitor.receive()
-
-    with pytest.raises(Closed, match="1007"):
-        run(send(attacked.url))
-    check(set(), attacked.log)
-
-
-def test_a_message_of_100_MB_is_not_read(attacked):
-    async def send(url):
-        visitor, innocent = await Visitor.enter(url, pull=False), await Visitor.enter(of_roll(url))
-        before = megabytes(attacked.process.pid)
-        with suppress(WebSocketClosedError, StreamClosedError):
-            await visitor.socket.write_message(b"x" * 100_000_000, binary=True)
-        with pytest.raises(Closed):
+        with pytest.raises(Closed, match="1007"):
             await visitor.receive()
-        answered, _ = await innocent.answer(await innocent.set(innocent.find("Dial")[0], "asked", [1, 6.5, False]))
-        innocent.leave()
-        return answered, megabytes(attacked.process.pid) - before
+    visitor, before = await Visitor.enter(server.url, pull=False), megabytes(server.process.pid)
+    with suppress(WebSocketClosedError, StreamClosedError):
+        await visitor.socket.write_message(b"x" * 100_000_000, binary=True)
+    with pytest.raises(Closed):
+        await visitor.receive()
+    for i in range(200):
+        await deaf.set(deaf.find("Dial")[0], "asked", [i, 6 + i / 1000, False])
+    assert await moves(innocent)
+    assert megabytes(server.process.pid) - before < 50
+    deaf.leave(), innocent.leave()
 
+
+def test_what_is_no_message_or_is_never_read_disturbs_nobody(attacked):
     said = attacked.log.count("a piece over 256 KiB")
-    answered, more = run(send(attacked.url))
-    assert answered == "OK" and more < 50
+    run(no_messages(attacked))
     assert attacked.log.count("a piece over 256 KiB") == said + 1
+    check(set(), attacked.log)
 
 
 # --- each attribute of each component
@@ -211,8 +221,8 @@ def attributes_of(name):
 async def each_attribute(url):
     """Sends eleven values to each attribute that the browser may change, and one to each of the others, which are
     refused by name; then valid ones, which are accepted. Returns how many were sent."""
-    page, count = await visitors.come(url), 0
-    await visitors.open_rooms(page)
+    page, count = await visitors.come(url, "de"), 0
+    await visitors.stay(page, 5.0)
     await page.until(lambda: page.visitor.find("Surface3D"))  # Roll makes it when the page has come
     visitor = await Visitor.enter(url, page.visitor.token, pull=False)  # a second socket of the same session
     components = {}
@@ -220,11 +230,14 @@ async def each_attribute(url):
         if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
             components.setdefault(re.sub(r"\d+$", "", name), []).append(id)
     assert {"Dial", "Head", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
+    # Whoever adds a component lists what the browser changes of it: others accept plain values only.
+    named = {re.sub(r"\d+$", "", name) for name, _ in page.visitor.models.values() if re.search(r"[a-z3]D?\d+$", name)}
+    assert named - set(CHANGES) - {"Range1d", "DataRange1d"} == set()
     for name, ids in components.items():
         for i, attribute in enumerate(attributes_of(name)):
             known = attribute in CHANGES.get(name, {})
             for value in ELEVEN if known else ELEVEN[i % 11 :][:1]:
-                for id in ids if known else ids[:1]:
+                for id in ids[:2] if known else ids[:1]:
                     kind, reply = await visitor.answer(await visitor.set(id, attribute, value))
                     # the lesson creates its questions again, and messages to removed ones are ignored
                     assert known or kind == "ERROR" or name == "RadioBoxGroup", (name, attribute)
@@ -248,6 +261,172 @@ def test_values_that_belong_nowhere_for_each_attribute_of_each_component(attacke
     log = attacked.log[before:]
     at = max(log.find("a bug"), log.find("Traceback"))
     assert at < 0, log[at : at + 5000]
+
+
+# --- files
+
+GIGABYTE = 1_000_000_000
+TOP = save_top(LoadedSphere(R=0.02345, b=0.008, d=0.010, density=1190.0, core_density=7850.0)).encode()
+NO_FILES = (
+    ({}, LARGEST_FILE + 1), ({"total_chunks": 9}, 10), ({"chunk": 2, "total_chunks": 2}, 10), ({"chunk": True}, 10),
+    ({"chunk": 10**400}, 10), ({"name": "n" * 301}, 10), ({"name": {"type": "map"}}, 10), ({"mime_type": None}, 10),
+    ({"data": {"type": "bytes", "data": "H4sI"}}, 10), ({"data": []}, 10), ({"more": 1}, 10), ({"status": "done"}, 10),
+)  # fmt: skip
+
+
+def most_megabytes(pid):
+    """The greatest memory that a process has used."""
+    return int(re.search(r"VmHWM:\s*(\d+)", Path(f"/proc/{pid}/status").read_text())[1]) / 1000
+
+
+def chunk(**more):
+    """A file in one piece, as sent by the browser."""
+    whole = {"status": "upload_event", "type": "status", "name": "top.json", "mime_type": "application/json",
+             "chunk": 1, "total_chunks": 1, "data": {"type": "bytes", "data": {"id": "b0"}}}  # fmt: skip
+    return whole | more
+
+
+def bombs(file, dial):
+    """Messages that name a gigabyte, or a model."""
+    for size in (500_000_000, 10**10):  # bytes(of a number)
+        yield event("data_event", file, data=chunk(data=size))
+    for dtype in (f"S{GIGABYTE}", f"({GIGABYTE // 8},)f8"):
+        array = {"type": "ndarray", "array": [1], "dtype": dtype, "order": "little", "shape": [1]}
+        yield event("data_event", file, data=chunk(data=array))
+        yield {"kind": "ModelChanged", "model": {"id": dial}, "attr": "asked", "new": array}
+    many = {"type": "object", "name": "ColumnDataSource", "id": "new", "attributes": {"data": {}}}
+    yield {"kind": "ModelChanged", "model": {"id": dial}, "attr": "asked", "new": many}
+
+
+async def send_files(server):
+    """Bombs, files that are none or too large, 300 that are never finished (20 MB, each with another name); then a good
+    one."""
+    visitor, pid = await Visitor.enter(f"{server.url}?tab=build-a-top"), server.process.pid
+    await visitor.ready()
+    while visitor.component("TopFile") is None:
+        visitor.note((await visitor.receive())[1])
+    file, before = visitor.component("TopFile"), most_megabytes(pid)
+
+    async def said(event, buffers=()):
+        return await visitor.answer(await visitor.say("PATCH-DOC", {"events": [event]}, buffers=buffers))
+
+    for bomb in bombs(file, visitor.find("Dial")[0]):
+        kind, content = await said(bomb)
+        assert kind == "ERROR" and content["traceback"] is None
+    for more, size in NO_FILES:
+        kind, content = await said(event("data_event", file, data=chunk(**more)), [b" " * size])
+        assert kind == "ERROR" and content["traceback"] is None, more
+    assert most_megabytes(pid) - before < 100
+    before = megabytes(pid)
+    for i in range(300):
+        kind, _ = await said(event("data_event", file, data=chunk(name=f"{i}")), [b" " * LARGEST_FILE])
+        assert kind == "OK"
+    assert megabytes(pid) - before < 10
+    assert (await said(event("data_event", file, data=chunk()), [TOP]))[0] == "OK"
+    all_of_it = event("data_event", file, data={"status": "finished", "type": "status"})
+    await visitor.say("PATCH-DOC", {"events": [all_of_it]})
+    while "23.45" not in json.dumps((await visitor.receive())[1]):
+        pass
+    visitor.leave()
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="reads what Linux says of a process's memory")
+def test_a_file_is_one_small_piece_and_what_is_none_costs_nothing(attacked):
+    run(send_files(attacked), 600)
+
+
+# --- what each part takes, without a server
+
+
+class Models(dict):
+    """The models of a document, as look_at() needs them."""
+
+    get_by_id = dict.get
+    seen = dict.__contains__
+
+
+def look(*events, models, buffers=()):
+    content = {"events": list(events)}
+    message = SimpleNamespace(msgtype="PATCH-DOC", content=content, payload=Serialized(content, list(buffers)))
+    look_at(message, SimpleNamespace(models=models))
+
+
+@pytest.mark.parametrize("kind, attribute, takes, refuses", [
+    ("Dial1", "asked", [[1, 6.5, False], [2, "6,5", True]],
+     [None, 7, [], [1, 6.5], [1, 6.5, 0], [True, 6.5, False], [-1, 6.5, False], [1, 1e16, False], [1, [], False],
+      [1, "9" * 301, True], [1, float("nan"), False], [1, 10**400, False], [1, 6.5, False, 0]]),
+    ("Head1", "asked", [[1, "room", "lab"], [2, "dark", True]],
+     [None, 7, [1, "room"], [-1, "room", "lab"], [1, "room", 7], [1, "x" * 301, ""], [1, "toy", None]]),
+    ("Select1", "value", ["a", None], ["c", 1, ["a"], {}]),
+    ("TextInput1", "value", ["", "x" * 20], ["x" * 21, 7, None]),
+    ("FloatSlider1", "value", [0, 0.5, 1], [1.1, -1, True, "0.5", None, float("nan"), 10**400]),
+    ("RangeSlider1", "value", [[0, 0.5], [0, 1]], [0.5, [0.5], [0, 1.1], [0, "1"], [0, 0.5, 1], None]),
+    ("CheckBoxGroup1", "value", [[], ["a"], ["b", "a"]], ["a", ["c"], [1], [["a"]], None]),
+    ("Top3D1", "tilted", [[], [1.5, 0.1, 3]], [[1.5], [9, 0, 0], [1.5, "0", 0], [1.5, 0, -1], {}]),
+    ("Surface3D1", "hand", [[], ["end", 0.5, 7]], [["a", 0.5, 7], ["end", True, 7], [0.5, 7]]),
+    ("New1", "anything", [None, 7, "x", [1, [2]], {"type": "map", "entries": [["a", 1]]}],
+     [[0] * (MOST + 1), [[[[[1]]]]], 1e16, float("inf"), {"type": "slice"}, {"id": "p1"}, {"a": 1}, "x" * 20_000]),
+    ("figure", "inner_width", [300], [None, "300", float("inf")]),
+    ("figure", "renderers", [], [[], None]),
+    ("LinearAxis", "axis_line_color", ["red", None], [["red"], "x" * 301, {"type": "value", "value": 1}]),
+    ("ColumnDataSource", "data", [{"type": "map", "entries": [["x", [0.5]], ["z", ["a"]]]}],
+     [None, {"type": "map", "entries": [["x", [0.5]]]}, {"type": "map", "entries": [["x", [0] * 11], ["z", []]]},
+      {"type": "map", "entries": [["x", [[0]]], ["z", []]]}]),
+])  # fmt: skip
+def test_what_the_browser_may_change(kind, attribute, takes, refuses):
+    has = {"objects": [1, 2, 3], "options": ["a", "b"], "max_length": 20, "start": 0, "end": 1,
+           "data": {"x": [], "z": []}}  # fmt: skip
+    known = type(f"Probe{kind}", (DataModel,) if kind.endswith("1") else (), {"__init__": lambda self: None})
+    known.__name__ = kind  # only now: Bokeh registers the name at creation, and allows it only once in a process
+    own = known()
+    for name, value in has.items():
+        object.__setattr__(own, name, value)
+    models = Models(p1=own)
+
+    def change(value):
+        look({"kind": "ModelChanged", "model": {"id": "p1"}, "attr": attribute, "new": value}, models=models)
+
+    for value in takes:
+        change(value)
+    for value in refuses:
+        with pytest.raises(Refused):
+            change(value)
+
+
+POINT = {"sx": 1, "sy": 1, "x": 0.5, "y": 0.5, "modifiers": {"type": "map", "entries": []}}
+
+
+@pytest.mark.parametrize("said, why", [
+    (event("tap", "p1", **POINT | {"x": "far"}), "'x'"), (event("tap", "p1", **POINT | {"x": None}), "'x'"),
+    (event("tap", "p1", sx=1, sy=1, x=0), "missing"), (event("tap", "p1", **POINT | {"more": 0}), "'more'"),
+    (event("tap", "nobody", **POINT), "no part"), (event("pan", "p1", **POINT), "hears"),
+    (event("nonsense", "p1"), "'nonsense'"), (event("document_ready", "p1"), "'model'"),
+    (event("dom_event", "p2", node="msg", data=None), "'node'"),
+    (event("data_event", "p2", data={"a": 1}), "no message"),
+    ({"kind": "MessageSent", "msg_type": "other", "msg_data": {}}, "an event"),
+    ({"kind": "RootRemoved", "model": {"id": "p1"}}, "'RootRemoved'"), ({"kind": ["ModelChanged"]}, "kind"),
+    ({"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "x", "new": 1, "hint": 1}, "names a model"),
+    ({"kind": "ModelChanged", "model": {"id": ["p1"]}, "attr": "x", "new": 1}, "no part"),
+])  # fmt: skip
+def test_events_that_the_page_never_sends(said, why):
+    button = type("ReactComponent", (), {})()
+    button.data, button.subscribed_events = type("Button1", (), {})(), ["dom_event", "data_event"]
+    figure = type("figure", (), {"subscribed_events": ["tap"]})()
+    look(event("tap", "p1", **POINT), models=Models(p1=figure))
+    with pytest.raises(Refused, match=why):
+        look(said, models=Models(p1=figure, p2=button))
+
+
+# --- the table, and the page
+
+
+def test_the_table_has_what_our_scripts_change():
+    """The assignments model.x = ... in a component's JavaScript."""
+    scripts = [*(APP / "frontend/src").rglob("*.js"), *APP.rglob("*.py")]
+    changed = {name for path in scripts
+               for name in re.findall(r"\bmodel\.(\w+) (?:\+?=) ", path.read_text(encoding="utf-8"))}  # fmt: skip
+    assert {"asked", "painted", "tilted", "page"} <= changed
+    assert changed - {name for attributes in CHANGES.values() for name in attributes} == set()
 
 
 if __name__ == "__main__":

@@ -3,16 +3,19 @@
 import asyncio
 import json
 import logging
+import os
 import re
 import signal
+import subprocess
 import sys
 import threading
 from pathlib import Path
 from types import SimpleNamespace
+from urllib.request import urlopen
 
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
-from serving import served, until
+from serving import answers, served, until
 from wire import Closed, Visitor, get, run
 
 from app.model.runs import Pool
@@ -23,53 +26,7 @@ from app.server.logs import Line, without_addresses
 from app.server.settings import Settings
 from app.text import say
 
-pytestmark = pytest.mark.served
 forks = pytest.mark.skipif(sys.platform == "win32", reason="processes share a socket by fork")
-
-
-def ready(server, prefix=""):
-    """(status, reasons, sessions of all workers)"""
-    status, headers, text = get(f"{server.url.removesuffix('/app').removesuffix('/tops')}{prefix}/readyz")
-    said = json.loads(text)
-    assert headers["Cache-Control"] == "no-store" and said["ready"] == (status == 200) == (not said["why"])
-    return status, said["why"], sum(said["sessions"].values())
-
-
-def compiled(server):
-    """Waits until the kernels are compiled: before that the server is not ready."""
-    until(lambda: "compiling" not in ready(server)[1], 600)
-
-
-def test_a_full_server_lives_but_is_not_ready_with_the_prefix_and_without(tmp_path):
-    async def visit():
-        visitor = await Visitor.enter(server.url)
-        for prefix in ("", "/tops"):
-            assert await asyncio.to_thread(ready, server, prefix) == (503, ["full"], 1)
-        visitor.leave()
-
-    with served(tmp_path / "log", prefix="/tops", sessions=1, linger=3600) as server:
-        compiled(server)
-        assert ready(server) == ready(server, "/tops") == (200, [], 0)
-        run(visit())
-        until(lambda: ready(server)[0] == 200)  # its session is kept, but its place is free
-        for prefix in ("", "/tops"):
-            assert get(f"{server.root.removesuffix('/tops')}{prefix}/liveness")[0] == 200
-        assert get(f"{server.root}/metrics")[0] == 404 == get(f"{server.root.removesuffix('/tops')}/metrics")[0]
-
-
-@forks
-def test_any_worker_speaks_for_all(tmp_path):
-    async def visits():
-        inside = [await Visitor.enter(server.url) for _ in range(3)]
-        await asyncio.to_thread(until, lambda: {ready(server)[2] for _ in range(8)} == {3})
-        for each in inside:
-            each.leave()
-
-    with served(tmp_path / "log", workers=2, metrics=1) as server:
-        until(lambda: server.log.count("serving") == 2, 60)
-        until(lambda: len(json.loads(get(server.root + "/readyz")[2])["sessions"]) == 2)
-        run(visits())
-        assert {labels["worker"] for labels in measured(server)["tippe_sessions"]} == {"0", "1"}
 
 
 def test_who_says_nothing_any_more_is_not_asked(monkeypatch):
@@ -87,46 +44,6 @@ def test_who_says_nothing_any_more_is_not_asked(monkeypatch):
     assert board.read() == {}
 
 
-class Labels(dict):
-    """A dict as a hashable key."""
-
-    def __hash__(self):
-        return hash(tuple(sorted(self.items())))
-
-
-def measured(server):
-    """{name: {labels: value}} in /metrics."""
-    status, headers, text = get(server.root + "/metrics")
-    assert status == 200 and headers["Content-Type"].startswith("text/plain")
-    found = {}
-    for family in text_string_to_metric_families(text):
-        for sample in family.samples:
-            found.setdefault(sample.name, {})[Labels(sample.labels)] = sample.value
-    return found
-
-
-def test_metrics_count_what_there_is(tmp_path):
-    async def visit():
-        visitor = await Visitor.enter(server.url)
-        kind, _ = await visitor.answer(await visitor.say("PATCH-DOC", {"events": ["nonsense"]}))
-        assert kind == "ERROR"
-        assert (await asyncio.to_thread(get, server.url))[0] == 503
-        found = await asyncio.to_thread(measured, server)
-        visitor.leave()
-        return found
-
-    with served(tmp_path / "log", metrics=1, sessions=1) as server:
-        found = run(visit())
-        one = Labels(worker="0")
-        assert found["tippe_sessions"][one] == found["tippe_connections"][one] == found["tippe_full"][one] == 1
-        assert found["tippe_refused_total"][Labels(worker="0", why="full")] == 1
-        assert found["tippe_refused_total"][Labels(worker="0", why="message")] == 1
-        assert found["tippe_queue_turns_total"][Labels(worker="0", queue="session")] == 1
-        assert found["tippe_queue_length"][Labels(worker="0", queue="run")] == 0
-        assert 0 <= found["tippe_event_loop_lag_seconds"][one] < 60
-        assert found["tippe_memory_bytes"][one] > 1e8 and not found["tippe_open_files"][one] < 3
-
-
 def test_a_pool_knows_how_many_wait_and_waited():
     pool, go = Pool(1, "tried"), threading.Event()
     done = [threading.Event() for _ in range(3)]
@@ -139,28 +56,6 @@ def test_a_pool_knows_how_many_wait_and_waited():
     go.set()
     assert all(each.wait(60) for each in done)
     assert pool.waiting() == 0 and pool.turns == 3 and pool.waited > 0
-
-
-def test_at_sigterm_no_page_is_let_in_and_those_that_are_open_are_told(tmp_path):
-    async def until_told(visitor):
-        with pytest.raises(Closed) as closed:
-            while True:
-                await visitor.receive()
-        assert closed.value.args == (1001, say("main.server.stopping", "en"))
-
-    async def drained():
-        inside = [await Visitor.enter(server.url) for _ in range(4)]
-        server.process.send_signal(signal.SIGTERM)
-        await asyncio.to_thread(until, lambda: ready(server)[:2] == (503, ["stopping"]))
-        status, headers, text = await asyncio.to_thread(get, server.url)
-        assert status == 503 and headers["Retry-After"] and say("main.server.stopping", "en") in text
-        await asyncio.gather(*map(until_told, inside))
-
-    with served(tmp_path / "log", drain=60) as server:
-        compiled(server)
-        run(drained())
-        assert server.process.wait(60) == 0
-        assert "4 open pages" in server.log and "Traceback" not in server.log
 
 
 @pytest.mark.parametrize("pages, drain, signals, slept", [
@@ -193,24 +88,6 @@ def test_pages_are_sent_elsewhere_one_after_the_other(pages, drain, signals, sle
         assert did[:2] == ["told", pytest.approx(slept[0] / 10)] and did[11] == "told"
 
 
-@forks
-@pytest.mark.slow
-def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
-    """With a bound of 1 MB every page is too much; a worker is not replaced before its first page."""
-
-    async def visit():
-        visitor = await Visitor.enter(f"{server.url}?tab=roll")
-        answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
-        assert answered == "OK" and server.log.count("takes the place") == before
-        visitor.leave()
-
-    with served(tmp_path / "log", memory=1, linger=1) as server:
-        for before in range(2):
-            run(visit())
-            until(lambda: server.log.count("serving") == before + 2, 120)  # noqa: B023
-        assert server.log.count("takes the place") == 2 and "lost worker" not in server.log
-
-
 @pytest.mark.parametrize("line, left", [
     ("refused 10.0.0.7 a page: full", "refused - a page: full"), ("404 GET /a.b (::1)", "404 GET /a.b (-)"),
     ("of 2001:db8::17, or 10.1.2.3:5006", "of -, or -"), ("from 10.1.2.3: no", "from -: no"),
@@ -236,15 +113,6 @@ def test_a_line_of_the_log_is_one_object_with_its_trace():
     assert "met by 10.0.0.7" in plain and "ValueError" in plain
 
 
-def test_a_server_writes_json_and_no_addresses_where_that_is_asked_for(tmp_path):
-    with served(tmp_path / "log", log_format="json", log_addresses=0) as server:
-        assert get(server.url + "/nowhere")[0] == 404
-        until(lambda: "404" in server.log and server.log.endswith("\n"))  # after the answer has been sent
-        lines = [json.loads(line) for line in server.log.splitlines()]
-        assert {"time", "level", "process", "message"} <= lines[0].keys()
-        assert "404 GET /app/nowhere (-)" in [line["message"] for line in lines] and "127.0.0.1" not in server.log
-
-
 def test_the_unit_of_systemd_sets_what_there_is_and_waits_long_enough():
     unit = (Path(__file__).parent.parent / "deploy/tippe.service").read_text(encoding="utf-8")
     [command] = re.findall(r"(?m)^ExecStart=\S+ -m app (.*)$", unit)
@@ -262,3 +130,152 @@ def test_metrics_need_their_package(monkeypatch):
     with pytest.raises(ValueError, match=r"TIPPE_METRICS is '1'; allowed is 0 .*\[metrics\]"):
         Settings.of({"TIPPE_METRICS": "1"})
     assert Settings.of({"TIPPE_METRICS": "0"}).metrics == 0
+
+
+# --- servers
+
+
+def ready(root):
+    """(status, reasons, sessions of all workers)"""
+    status, headers, text = get(f"{root}/readyz")
+    said = json.loads(text)
+    assert headers["Cache-Control"] == "no-store" and said["ready"] == (status == 200) == (not said["why"])
+    return status, said["why"], sum(said["sessions"].values())
+
+
+class Labels(dict):
+    """A dict as a hashable key."""
+
+    def __hash__(self):
+        return hash(tuple(sorted(self.items())))
+
+
+def measured(root):
+    """{name: {labels: value}} in /metrics."""
+    status, headers, text = get(root + "/metrics")
+    assert status == 200 and headers["Content-Type"].startswith("text/plain")
+    found = {}
+    for family in text_string_to_metric_families(text):
+        for sample in family.samples:
+            found.setdefault(sample.name, {})[Labels(sample.labels)] = sample.value
+    return found
+
+
+def workers_of(pid):
+    return subprocess.run(["pgrep", "-P", str(pid)], capture_output=True, text=True).stdout.split()
+
+
+def lives(pid):
+    """A process that has ended may wait until the system collects it."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def ends(server, how):
+    """Ends the first process of a server with this signal; all its workers end with it."""
+    workers = workers_of(server.process.pid)
+    server.process.send_signal(how)
+    server.process.wait()
+    until(lambda: not any(map(lives, workers)))
+    assert not answers(server.url)
+
+
+async def until_told(visitor):
+    with pytest.raises(Closed) as closed:
+        while True:
+            await visitor.receive()
+    assert closed.value.args == (1001, say("main.server.stopping", "en"))
+
+
+async def whole_life(server, roots):
+    """Two visitors fill the server; a strange message and a third visitor are refused, and counted. One leaves, another
+    comes; at SIGTERM no page is let in, and those that are open are told. Returns the metrics of the full server."""
+    inside = [await Visitor.enter(server.url) for _ in range(2)]
+    kind, _ = await inside[0].answer(await inside[0].say("PATCH-DOC", {"events": ["nonsense"]}))
+    assert kind == "ERROR"
+    for root in roots:
+        assert await asyncio.to_thread(ready, root) == (503, ["full"], 2)
+    assert (await asyncio.to_thread(get, server.url))[0] == 503
+    found = await asyncio.to_thread(measured, roots[0])
+    inside.pop().leave()
+    await asyncio.to_thread(until, lambda: ready(server.root)[0] == 200)  # the session is kept, but its place is free
+    await asyncio.to_thread(until, lambda: get(server.url)[0] == 200)
+    inside.append(await Visitor.enter(server.url))
+    server.process.send_signal(signal.SIGTERM)
+    await asyncio.to_thread(until, lambda: ready(server.root)[:2] == (503, ["stopping"]))
+    status, headers, text = await asyncio.to_thread(get, server.url)
+    assert status == 503 and headers["Retry-After"] and say("main.server.stopping", "en") in text
+    await asyncio.gather(*map(until_told, inside))
+    return found
+
+
+@pytest.mark.served
+def test_a_server_with_a_prefix_says_how_it_is_until_it_stops(tmp_path):
+    """It is found from everywhere, is full, counts, writes JSON without addresses, and sends its pages elsewhere."""
+    options = {"sessions": 2, "linger": 3600, "metrics": 1, "drain": 60, "log_format": "json", "log_addresses": 0}
+    with served(tmp_path / "log", arguments=["--prefix", "tops"], prefix="/other", **options) as server:
+        bare = server.url.removesuffix("/other/app")
+        server.url = f"{bare}/tops/app"  # the option goes before the variable
+        for path in ("", "/", "/tops", "/tops/", "/tops/app/"):
+            with urlopen(f"{bare}{path}?KJ=6.5") as answer:
+                assert answer.status == 200 and answer.url == f"{server.url}?KJ=6.5"
+        until(lambda: "compiling" not in ready(bare)[1], 600)
+        roots = (bare, server.root)
+        assert [ready(root) for root in roots] == 2 * [(200, [], 0)]
+        assert [get(f"{root}/liveness")[0] for root in roots] == [200, 200] and get(f"{bare}/nowhere")[0] == 404
+        found, one = run(whole_life(server, roots)), Labels(worker="0")
+        assert found["tippe_sessions"][one] == found["tippe_connections"][one] == 2 and found["tippe_full"][one] == 1
+        assert found["tippe_refused_total"][Labels(worker="0", why="full")] == 1
+        assert found["tippe_refused_total"][Labels(worker="0", why="message")] == 1
+        assert found["tippe_queue_turns_total"][Labels(worker="0", queue="session")] == 2
+        assert found["tippe_queue_length"][Labels(worker="0", queue="run")] == 0
+        assert 0 <= found["tippe_event_loop_lag_seconds"][one] < 60
+        assert found["tippe_memory_bytes"][one] > 1e8 and not found["tippe_open_files"][one] < 3
+        assert server.process.wait(60) == 0
+        lines = [json.loads(line) for line in server.log.splitlines()]
+        assert {"time", "level", "process", "message"} <= lines[0].keys()
+        said = "\n".join(line["message"] for line in lines)
+        assert f"{server.url.removeprefix('http://127.0.0.1')}" in said and "404 GET /nowhere (-)" in said
+        assert "2 open pages" in said and "Traceback" not in server.log
+        assert not re.search(r"127\.0\.0\.1(?!:\d+/tops/app)", said)
+
+
+@forks
+@pytest.mark.served
+def test_any_worker_speaks_for_all_a_lost_one_is_replaced_and_all_end_when_the_first_process_is_killed(tmp_path):
+    async def visits():
+        inside = [await Visitor.enter(server.url) for _ in range(3)]
+        await asyncio.to_thread(until, lambda: {ready(server.root)[2] for _ in range(8)} == {3})
+        for each in inside:
+            each.leave()
+
+    with served(tmp_path / "log", workers=2, metrics=1) as server:
+        until(lambda: server.log.count("serving") == 2)
+        until(lambda: len(json.loads(get(server.root + "/readyz")[2])["sessions"]) == 2)
+        run(visits())
+        assert {labels["worker"] for labels in measured(server.root)["tippe_sessions"]} == {"0", "1"}
+        lost = workers_of(server.process.pid)[0]
+        os.kill(int(lost), signal.SIGKILL)
+        until(lambda: server.log.count("serving") == 3)
+        assert len(now := workers_of(server.process.pid)) == 2 and lost not in now
+        ends(server, signal.SIGKILL)
+
+
+@forks
+@pytest.mark.served
+def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
+    """With a bound of 1 MB every page is too much; a worker is not replaced before its first page."""
+
+    async def visit():
+        visitor = await Visitor.enter(f"{server.url}?tab=roll")
+        answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
+        assert answered == "OK" and "takes the place" not in server.log
+        visitor.leave()
+
+    with served(tmp_path / "log", memory=1, linger=1) as server:
+        run(visit())
+        until(lambda: server.log.count("serving") == 2)
+        assert get(server.url)[0] == 200
+        assert server.log.count("takes the place") == 1 and "lost worker" not in server.log

@@ -13,7 +13,7 @@ from typing import ClassVar
 import pytest
 from openid import SECRET, provider
 from serving import listens, served, until
-from test_faults import has_come_back, set_K_J
+from test_faults import has_come_back, set_spin
 from visiting import Visit, free_port
 from watching import LOST
 
@@ -106,8 +106,8 @@ def page(chromium, page_errors):
 def test_a_page_comes_by_https_under_a_prefix_and_its_socket_too(name, page, tmp_path):
     with served(tmp_path / "log", prefix="/tops", proxy=1, origins="localhost:*") as server:
         with proxied(name, tmp_path, server.url.rsplit(":", 1)[1].removesuffix("/tops/app")) as root:
-            visit = Visit(page, f"{root}/tops/app?tab=roll")
-            set_K_J(page, "6.5")
+            visit = Visit(page, f"{root}/tops/app?tab=lab", whole=False)
+            set_spin(page, "29.5")
             assert visit.sent and not visit.errors
             assert all(each.startswith((root, "blob:", "data:")) for each in visit.requests)
             asked = page.context.request
@@ -150,11 +150,10 @@ class Login(BaseHTTPRequestHandler):
 
 
 def signs_in(page, root):
-    """Opens the page through the login, and moves K_J."""
-    page.goto(f"{root}/tops/app?tab=roll")
+    """Opens the page through the login, and sets the spin."""
+    page.goto(f"{root}/tops/app")
     page.get_by_text("Sign in").click()
-    page.wait_for_function("window.__tippe?.top3d?.pictures > 2")
-    set_K_J(page, "6.5")
+    set_spin(page, "29.5")
 
 
 def loses(page, server):
@@ -178,7 +177,7 @@ def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(
                 loses(page, server)
             with served(tmp_path / "again", **settings):
                 page.get_by_text("Sign in").click()
-                has_come_back(page, "6.5")
+                has_come_back(page, "29.5")
     finally:
         login.shutdown()
 
@@ -195,8 +194,8 @@ def test_a_login_of_apache_that_ran_out_is_asked_for_again_and_leads_back_to_wha
             assert asked.get(f"{root}/tops/readyz", headers={"Sec-Fetch-Mode": "cors"}).status == 401
             signs_in(page, root)
             until(lambda: asked.get(f"{root}/tops/readyz", headers={"Sec-Fetch-Mode": "cors"}).status == 401, 60)
-            set_K_J(page, "6.6")  # an open page stays open
+            set_spin(page, "30.5")  # an open page stays open
             loses(page, server)
         with served(tmp_path / "again", **settings):
             page.get_by_text("Sign in").click()
-            has_come_back(page, "6.6")
+            has_come_back(page, "30.5")

@@ -59,6 +59,8 @@ def prepare(document):
     document.template_variables["dist_url"] = LOCAL_DIST
     for root in document.roots:
         patch_model_css(root, dist_url=LOCAL_DIST)
+    # A page that lost its server loads anew (notices.js). Bokeh would meanwhile open another session, and fail with it.
+    document.config.update(reconnect_session=False, notifications=None, notify_connection_status=False)
 
 
 class Socket(Answer, WSHandler):
