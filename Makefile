@@ -5,7 +5,7 @@ VENV ?= .venv
 BIN = $(VENV)/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js app/frontend/src/*/*.js app/model/*.json)
 
-.PHONY: serve kernels check quick test durations long ages proof source pythons lock validation docs bench image browser proxy redis
+.PHONY: serve kernels check quick test newest durations long ages proof source pythons lock validation docs bench image browser proxy redis
 
 serve: kernels
 	$(BIN)/python -m app --address localhost --show
@@ -28,6 +28,10 @@ quick: $(VENV)/test kernels
 # All tests on this Python, except those that are slow by nature.
 test: $(VENV)/test kernels source browser proxy redis
 	$(PYTEST)
+
+# All tests on the newest Python here.
+newest: $(VENV)/test
+	$(MAKE) test PYTHON="$$($(BIN)/python tests/pythons.py --newest)" VENV=.venv-newest
 
 # The whole suite, and writes tests/durations.json.
 durations: $(VENV)/test kernels browser proxy redis
