@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import visitors
 from serving import serving, until
+from wire import Visitor, run
 
 import tippe_core
 from tippe_core import kept
@@ -353,6 +353,14 @@ def test_no_kernel_starts_threads_or_loosens_arithmetic():
             assert named & {"nogil", "parallel", "fastmath"} == {"nogil"}
 
 
+async def moves(url):
+    """The answer to a visitor who moves a slider of Roll."""
+    visitor = await Visitor.enter(f"{url}?tab=roll")
+    answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
+    visitor.leave()
+    return answered
+
+
 @pytest.mark.served
 @pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
 @pytest.mark.parametrize("command", ["app", pytest.param("panel serve app", marks=pytest.mark.long)])
@@ -362,7 +370,7 @@ def test_a_server_that_finds_no_kernels_answers_while_they_are_compiled(command,
     shutil.copytree(here, tmp_path / "kernels" / here.name, ignore=shutil.ignore_patterns(kept.COMPLETE))
     told = ["env", f"NUMBA_CACHE_DIR={tmp_path / 'kernels'}", sys.executable, "-m", *command.split()]
     with serving(told, log, ROOT) as server:
-        assert visitors.main(server.url, 1) == 0
+        assert run(moves(server.url)) == "OK"
         until(lambda: "kernels are compiled" in log.read_text(), 300)
     said = log.read_text()
     assert said.count("no compiled kernels are kept") == said.count("kernels are compiled, after") == 1
@@ -383,7 +391,7 @@ def descendants(pid):
     return found
 
 
-def runs(pid):
+def still_runs(pid):
     """Whether a process has not ended."""
     with suppress(OSError):
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
@@ -410,8 +418,8 @@ def test_what_compiles_for_a_server_ends_with_it(command, end, tmp_path):
         server.process.send_signal(end)
         server.process.wait(60)
         try:
-            until(lambda: not any(map(runs, started)), 30)
+            until(lambda: not any(map(still_runs, started)), 30)
         finally:
-            for each in filter(runs, started):
+            for each in filter(still_runs, started):
                 os.kill(each, signal.SIGKILL)
     assert not any(map(kept.complete, (tmp_path / "kernels").iterdir()))  # nor did it end because it was done
