@@ -126,6 +126,21 @@ def test_one_and_many_fly_alike(landing):
     many = slide_many(PAPER, state, Coulomb(0.3), 5.0, EDGE, rtol=1e-9, landing=landing)
     assert many.hops == sum(what == "lifts off" for _, what in one.events) > 0
     assert (one.events[-1][1] == "lifts off" and len(one) < 501) == (landing == "stop")
+    assert (many.end, many.reason) == ("refused", "lifts-off") if landing == "stop" else many.reason == ""
+    assert many.state_end.theta == pytest.approx(one.theta[-1], abs=0.2 if landing == "stop" else 1e-5)
+
+
+def test_a_start_in_flight_goes_on_only_where_it_flies():
+    state = State(2.8, 0.1, -0.5, -9.0)
+    stopped, flying = (slide_many(PAPER, state, Viscous(0.3), 1.0, EDGE, landing=how) for how in ("stop", "plastic"))
+    assert slide(PAPER, state, Viscous(0.3), [0, 1.0], edge=EDGE, landing="stop").events == ((0.0, "lifts off"),)
+    assert (stopped.end, stopped.reason, stopped.theta_end) == ("refused", "lifts-off", pytest.approx(2.8, abs=1e-12))
+    assert flying.reason == "" and flying.theta_end != pytest.approx(2.8, abs=1e-3)
+
+
+def test_at_the_threshold_itself_as_one_below_it():
+    change = thresholds(PAPER).upright
+    assert change.stable == "below" and change.holds(change.spin) and not change.holds(np.nextafter(change.spin, 99))
 
 
 def test_another_executor_gives_the_same_numbers():

@@ -136,10 +136,18 @@ def set_arrays(name: str, record: Any) -> None:
             array = numbers(field, value, finite=False)
             array.flags.writeable = False
             object.__setattr__(record, field, array if array.ndim else float(array))
+    common_shape(
+        name, "fields that broadcast together", *(value for value in vars(record).values() if value is not None)
+    )
+
+
+def common_shape(name: str, allowed: str, *values: ArrayLike) -> tuple[int, ...]:
+    """The shape to which values broadcast, or a TopError with their shapes."""
+    shapes = [np.shape(value) for value in values]
     try:
-        np.broadcast_shapes(*(np.shape(value) for value in vars(record).values() if value is not None))
+        return np.broadcast_shapes(*shapes)
     except ValueError:
-        raise TopError(name, record, "fields that broadcast together", code="shapes-differ") from None
+        raise TopError(name, ", ".join(map(str, shapes)), allowed, code="shapes-differ") from None
 
 
 def numbers(name: str, values: ArrayLike, finite: bool = True) -> Array:

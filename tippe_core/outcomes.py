@@ -53,8 +53,8 @@ class Change:
 
     def holds(self, spin: Scalars) -> bool | Bools:
         """Whether it is stable at this spin (of either sign); broadcasts."""
-        beyond = np.where(np.equal(self.stable, "above"), np.abs(spin) > self.spin, np.abs(spin) < self.spin)
-        found = np.equal(self.stable, "always") | (np.not_equal(self.stable, "never") & beyond)
+        there = (np.abs(spin) > self.spin) == np.equal(self.stable, "above")
+        found = np.equal(self.stable, "always") | (np.not_equal(self.stable, "never") & there)
         return found if np.ndim(found) else bool(found)
 
 

@@ -10,14 +10,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, has_arrays, numbers, single
+from ..errors import TopError, common_shape, has_arrays, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
-from .dynamics import OPEN
+from .dynamics import OPEN, carried
 from .following import ENDED, MORE
 from .friction import CONTENSOU, LAWS
-from .happening import PAINLEVE, RIM_TOUCHES, STANDS_UPRIGHT, TOO_MANY_EVENTS
+from .happening import LIFTS_OFF, PAINLEVE, RIM_TOUCHES, STANDS_UPRIGHT, TOO_MANY_EVENTS, noted
 from .poses import WIDTH, row_at
 from .preparing import (
     beginning,
@@ -73,8 +73,9 @@ class Many:
                           friction; Painleve's limit; the ball's surface ends; too many events or steps), "stem" (on its
                           stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its ball, theta > pi - 0.2),
                           "leaning" (theta constant within 0.05 rad), "rolling" (without slipping, nutating), "moving"
-    reason                why a motion is "refused": the code of the TopError that slide() raises, or "too-many-events",
-                          "too-many-steps", and "too-strong" or "beyond-rim" also of an event; "" elsewhere
+    reason                why a motion is "refused": the code of the TopError that slide() raises, "too-strong" or
+                          "beyond-rim" also of an event, "too-many-events", "too-many-steps", or "lifts-off" if landing
+                          is to stop it there; "" elsewhere
     """
 
     theta_end: Array
@@ -131,13 +132,7 @@ def slide_many(
     times = numbers("t_end", t_end)
     rims = np.empty((), object) if edge is None else _objects([tuple(rim) for rim in _rows(edge)], np.shape(edge)[:-1])
     parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS), times, rims]
-    try:
-        shape = np.broadcast_shapes(*(part.shape for part in parts))
-    except ValueError:
-        shapes = ", ".join(str(part.shape) for part in parts)
-        raise TopError(
-            "t_end", shapes, "shapes of top, state, friction, t_end and edge that broadcast", code="shapes-differ"
-        ) from None
+    shape = common_shape("t_end", "shapes of top, state, friction, t_end and edge that broadcast", *parts)
     cells = list(zip(*(np.broadcast_to(part, shape).ravel().tolist() for part in parts), strict=True))
     if executor is not None:
         return _many(_all(cells, how, progress, executor), shape)
@@ -181,12 +176,8 @@ def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
 
 def _possible(kind: type, given: dict[str, Any], name: str) -> NDArray[np.object_]:
     """The instances of one kind whose fields are arrays, or the codes of the TopErrors that they raise."""
-    try:
-        arrays = np.broadcast_arrays(*(numbers(field, value, finite=False) for field, value in given.items()))
-    except ValueError as error:
-        if isinstance(error, TopError):
-            raise
-        raise TopError(name, kind.__name__, "fields that broadcast together", code="shapes-differ") from None
+    arrays = [numbers(field, value, finite=False) for field, value in given.items()]
+    shape = common_shape(name, "fields that broadcast together", *arrays)
 
     def made(row: tuple[float, ...]) -> Any:
         try:
@@ -194,8 +185,8 @@ def _possible(kind: type, given: dict[str, Any], name: str) -> NDArray[np.object
         except TopError as error:
             return error.code
 
-    rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
-    return _objects([made(row) for row in rows], arrays[0].shape)
+    rows = zip(*(np.broadcast_to(array, shape).ravel().tolist() for array in arrays), strict=True)
+    return _objects([made(row) for row in rows], shape)
 
 
 def _all(
@@ -243,7 +234,8 @@ def _cell(cell: tuple[Any, ...], how: _How) -> dict[str, Any]:
 
 
 # why a motion is refused that ends with this event
-REASONS = {PAINLEVE: "too-strong", RIM_TOUCHES: "beyond-rim", TOO_MANY_EVENTS: "too-many-events"}
+REASONS = {PAINLEVE: "too-strong", RIM_TOUCHES: "beyond-rim", TOO_MANY_EVENTS: "too-many-events",
+           LIFTS_OFF: "lifts-off"}  # fmt: skip
 
 
 def _followed(state: State, P: Record, t_end: float, how: _How) -> dict[str, Any]:
@@ -252,7 +244,9 @@ def _followed(state: State, P: Record, t_end: float, how: _How) -> dict[str, Any
     _, goes_on = start(W, P, state.theta)
     E = energy(W, P)
     begin_tally(W, P, (1 - LAST) * t_end)
-    if goes_on:
+    if goes_on and not carried(*W.modes) and not how.flies:
+        noted(W, log, LIFTS_OFF, OPEN, OPEN)
+    elif goes_on:
         status = MORE
         while status == MORE and W.steps < MOST_STEPS and not (how.stop and how.stop.is_set()):
             status = run_all(W, P, log, t_end, how.flies, EACH)

@@ -103,18 +103,10 @@ def slide(
     rtol = checked_rtol(rtol)
     losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
     P = problem(top, friction, checked_edge(edge), losses, rtol)
+    body = None if profile is None else checked_profile(profile)
     moved = _Run(top, friction, P, flies(landing), progress)(state, t)
-    return moved if profile is None else _above(moved, checked_profile(profile))
-
-
-def _above(moved: Trajectory, profile: Array) -> Trajectory:
-    """A Trajectory until another part of the body touches."""
-    first = sunk(moved, profile)
-    if first == len(moved):
-        return moved
-    time, kept = float(moved.t[first]), moved[: max(first, 1)]
-    events, supports = (tuple(x for x in each if x[0] < time) for each in (moved.events, moved.supports))
-    return replace(kept, events=(*events, (time, ANOTHER_TOUCHES)), supports=supports or kept.supports)
+    first = len(moved) if body is None else sunk(moved, body)
+    return moved if first == len(moved) else moved.until(max(first, 1), float(moved.t[first]), ANOTHER_TOUCHES)
 
 
 def sensitivity(
@@ -199,22 +191,25 @@ class _Run:
         W, P, times = self.motion, self.P, self.times
         exact = P.delta == P.drag == 0.0
         each = EACH if self.progress else MOST_STEPS
-        begins, lasts = float(times[0]), float(times[-1] - times[0]) or 1.0
         while True:
             status = run(W, P, self.log, times, self.rows, times[-1], self.flies, exact, each)
             if status == ROLLS:
-                if self.progress:
-                    self.progress(min(1.0, (float(W.y[12]) - begins) / lasts))
+                self._tell()
                 if self._roll():
                     return
                 continue
             if status != MORE:
                 return
-            if self.progress:
-                self.progress(min(1.0, (float(W.y[12]) - begins) / lasts))
+            self._tell()
             if W.steps >= MOST_STEPS:
                 noted(W, self.log, TOO_MANY_TURNS, *W.modes)
                 return
+
+    def _tell(self) -> None:
+        """Tells progress which fraction of the time is done."""
+        if self.progress:
+            begins, ends = self.times[0], self.times[-1]
+            self.progress(float(min(1.0, (self.motion.y[12] - begins) / (ends - begins))) if ends > begins else 1.0)
 
     def _state(self, y: Array) -> State:
         """The State at y, without the velocity of G."""

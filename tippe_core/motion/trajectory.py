@@ -105,6 +105,11 @@ class Trajectory:
         events, supports = (tuple(x for x in each if x[0] <= last) for each in (self.events, self.supports))
         return replace(self, events=events, supports=supports, **arrays)
 
+    def until(self, count: int, time: float, event: str) -> Self:
+        """The Trajectory of the first `count` instants, which then ends at this time with this event."""
+        events, supports = (tuple(x for x in each if x[0] < time) for each in (self.events, self.supports))
+        return replace(self[:count], events=(*events, (time, event)), supports=supports or self.supports[:1])
+
     def at(self, t: float) -> State:
         """The State at the time t, from t[0] to t[-1]: linear between the two nearest instants. x, y are those of G."""
         t = finite("t", t)

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite, has_arrays, numbers, set_arrays, single
+from ..errors import TopError, common_shape, finite, has_arrays, numbers, set_arrays, single
 from ..types import Array, Scalars
 from . import equations as eq
 from .equations import AnyTop
@@ -50,12 +50,7 @@ class Constants:
                 value = numbers(field.name, value) + 0.0
                 value.flags.writeable = False
             object.__setattr__(self, field.name, value)
-        try:
-            np.broadcast_shapes(*(np.shape(x) for x in (self.K_J, self.K_R, self.E)))
-        except ValueError:
-            shapes = ", ".join(str(np.shape(x)) for x in (self.K_J, self.K_R, self.E))
-            raise TopError("constants", shapes, "shapes of K_J, K_R and E that broadcast together",
-                           code="shapes-differ") from None  # fmt: skip
+        common_shape("constants", "shapes of K_J, K_R and E that broadcast together", self.K_J, self.K_R, self.E)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Constants):

@@ -167,8 +167,8 @@ class Motion:
     arguments of top3d.pack_frames. stretches: (start, end, one of regimes.py), in order. drift: for each of KEPT, the
     largest difference between two instants relative to the largest value; alone: the time up to which only the sphere
     touches, what ends that ("" if nothing), and the drift of J up to then, which only a single contact conserves.
-    Events have tippe_core's names, except THROWN if the stem's first touch lifts the top off, and ANOTHER. ending: on
-    the sliding plane, how the motion ends.
+    Events have tippe_core's names, except THROWN if the stem's first touch lifts the top off. ending: on the sliding
+    plane, how the motion ends.
     """
 
     trajectory: Trajectory

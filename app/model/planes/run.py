@@ -4,7 +4,6 @@ It runs in a thread, which has no page, so it is told in which language to say w
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -42,7 +41,7 @@ from tippe_core import (
 )
 from tippe_core.types import Array, Bools, Number
 
-THROWN, ANOTHER = "stem throws it up", "another part touches"
+THROWN = "stem throws it up"
 NUDGE, BESIDE = 1e-6, 3.0  # rad, s: the additional tilt of the disturbed run, and how long it continues after a touch
 
 Progress: TypeAlias = Callable[[float], object]
@@ -128,7 +127,7 @@ def clear(motion: Callable[[], Trajectory], settings: Setup, state: State) -> Tr
         return trajectory
     first = max(int(np.argmax(theta >= angle)), 1)
     time = float(np.interp(angle, theta[first - 1 : first + 1], t[first - 1 : first + 1]))
-    return replace(trajectory[:first], events=((time, "stem touches"),))
+    return trajectory.until(first, time, "stem touches")
 
 
 def for_reader(error: TopError, scales: Scales) -> TopError:
