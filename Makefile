@@ -16,7 +16,8 @@ kernels: $(VENV)/serve
 
 # One process for each core; the tests of a file stay together, because many share a server. tests/durations.py has the
 # order. To repeat an order: make test ORDER=--randomly-seed=SEED; ORDER=--shortest-first runs the shortest files first.
-PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder $(ORDER)
+PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder \
+	--max-worker-restart 0 $(ORDER)
 
 # About a minute: all tests except those that start a server or a browser, or take seconds.
 check: $(VENV)/test $(VENV)/frontend

@@ -14,7 +14,7 @@ from durations import Durations
 from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
-from serving import answers, redis_serving, until
+from serving import answers, end, redis_serving, until
 from visiting import Visit, free_port, launch
 from watching import Watch
 
@@ -119,8 +119,7 @@ def server():
         assert process.poll() is None, "panel serve app has ended"
         yield url
     finally:
-        process.terminate()
-        process.wait()
+        end(process)
 
 
 @pytest.fixture(params=[(1400, 900)], ids=["1400x900"])

@@ -33,6 +33,15 @@ class Served:
         return self.url.rsplit("/", 1)[0]
 
 
+def end(process):
+    """Ends a server. One that does not end of itself is killed, and that is an error."""
+    process.terminate()
+    try:
+        process.wait(PATIENCE)
+    finally:
+        process.kill()
+
+
 @contextmanager
 def served(output, wait=True, before=(), arguments=(), **settings):
     """Runs `python -m app` with these settings until the end of the block. output: the file for its log. wait: begin
@@ -49,8 +58,7 @@ def served(output, wait=True, before=(), arguments=(), **settings):
             assert process.poll() is None, output.read_text(encoding="utf-8")
         yield Served(process, root + settings.get("prefix", "") + "/app", output)
     finally:
-        process.terminate()
-        process.wait()
+        end(process)
 
 
 @contextmanager
@@ -84,8 +92,7 @@ def serving(command, output, folder):
         until(lambda: process.poll() is not None or answers(url))
         yield Served(process, url, output)
     finally:
-        process.terminate()
-        process.wait()
+        end(process)
 
 
 def megabytes(pid):

@@ -15,7 +15,7 @@ from types import SimpleNamespace
 import pytest
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from lab_page import DRAWN, TIME, entry, put
-from serving import answers, served, until
+from serving import answers, end, served, until
 from visiting import free_port, go_to, wait
 from watching import LOST as LOST_SERVER
 from wire import Visitor, get, run
@@ -121,8 +121,7 @@ def behind(proxy, *servers):
         until(lambda: answers(f"http://127.0.0.1:{port}/app"))
         yield f"http://127.0.0.1:{port}"
     finally:
-        process.terminate()
-        process.wait()
+        end(process)
 
 
 @pytest.mark.served

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import pytest
 from openid import SECRET, provider
-from serving import listens, served, until
+from serving import end, listens, served, until
 from test_faults import has_come_back, set_spin
 from visiting import Visit, free_port
 from watching import LOST
@@ -90,8 +90,7 @@ def proxied(name, folder, behind, login=None):
         assert process.poll() is None, (folder / "said").read_text()
         yield f"https://localhost:{port}"
     finally:
-        process.terminate()
-        process.wait()
+        end(process)
 
 
 @pytest.fixture

@@ -66,7 +66,8 @@ class Watch:
             lines.append(f"page {i}: {page.url}")
             try:
                 page.screenshot(path=folder / f"page{i}.png", timeout=10_000)
-                (folder / f"page{i}.html").write_text(page.content(), encoding="utf-8")
+                source = page.wait_for_function("document.documentElement.outerHTML", timeout=10_000)
+                (folder / f"page{i}.html").write_text(source.json_value(), encoding="utf-8")
             except Exception as error:  # a page that hangs has no picture, but the others have
                 lines.append(f"page {i} gave no picture: {error}")
         (folder / "console.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
