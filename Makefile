@@ -41,7 +41,7 @@ durations: $(VENV)/test kernels browser proxy redis
 # What is slow by nature: proxies with logins, 10,000 messages that no page sends, installs on every Python. Nightly, and
 # before a large piece of work is done.
 long: $(VENV)/test kernels browser proxy redis
-	$(PYTEST) --long -m long
+	$(PYTEST) --long -m long -o faulthandler_timeout=3600
 	$(BIN)/python tests/test_fuzz.py 10000
 	$(BIN)/python tests/pythons.py
 

@@ -16,7 +16,7 @@ import pytest
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from lab_page import DRAWN, TIME, entry, put
 from serving import answers, end, served, until
-from visiting import free_port, go_to, wait
+from visiting import free_port, go_to, texts, wait
 from watching import LOST as LOST_SERVER
 from wire import Visitor, get, run
 
@@ -75,7 +75,7 @@ def test_what_is_taken_from_a_page_comes_back_with_all_that_was_set(page, tmp_pa
         page.locator("input[type=file]").set_input_files(
             {"name": "top.json", "mimeType": "application/json", "buffer": TOP}
         )
-        wait(page, lambda: any("23.45" in box.input_value() for box in page.locator("input[type=text]").all()))
+        wait(page, lambda: any("23.45" in text for text in texts(page)))
         go_to(page, "Learn")
         page.locator("input[type=range]:visible").first.press("ArrowRight")
         go_to(page, "Lab")

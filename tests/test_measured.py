@@ -2,8 +2,6 @@
 Chromium."""
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -19,13 +17,11 @@ from app.model.measured.kept import kept
 from app.model.measured.made import LAW, found_of_example, made_anew
 from app.model.measured.table import read
 from app.model.measured.work import LONGEST
-from app.tabs.measure.home import program_file, report_file, residuals_file
+from app.tabs.measure.home import report_file, residuals_file
 from app.tabs.measure.measure import Measure
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.words import numbers_table
 from app.text import LANGUAGES, speaking
-
-ROOT = Path(__file__).parent.parent
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -44,12 +40,12 @@ def test_a_stored_fit_of_an_example_is_what_its_program_finds(name, monkeypatch)
     """From where it was found; that a search from elsewhere comes there is tested in test_measured_fit.py."""
     stored = found_of_example(name, LAW, ())
     ends = {each.model.name: np.array([each.model.values[free] for free in each.model.free]) for each in stored.fits}
-    monkeypatch.setattr(fit, "GROWING", ())
+    monkeypatch.setattr(fit, "GROWING", (1.0,))
     monkeypatch.setattr(fit, "starts", lambda model, data: [ends[model.name]] * fit.AGREEING)
     monkeypatch.setattr(fit, "scattered", lambda model, data: [])
     anew = made_anew(name)
     for one, other in zip(stored.fits, anew.fits, strict=True):
-        assert one.unknown == other.unknown and one.sure == other.sure
+        assert {*one.unknown} >= {*other.unknown} and one.sure == other.sure  # other minima leave more unknown
         assert one.chi2 == pytest.approx(other.chi2, rel=1e-3)
         for number, error in other.errors.items():
             assert abs(one.model.values[number] - other.model.values[number]) < 0.1 * error
@@ -163,16 +159,6 @@ def test_what_cannot_be_read_leaves_what_was_there(tab):
 
 
 @pytest.mark.slow
-def test_the_program_taken_home_repeats_the_fit(tab):
-    program = program_file(*tab.home.fit).decode()
-    said = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    again = {name: float(value) for name, value in re.findall(r"  (\w+) = (\S+)", said.split("contensou")[1])}
-    sliding = tab._found.sliding
-    for name, error in sliding.errors.items():
-        assert abs(again[name] - sliding.model.values[name]) < 0.1 * error
-
-
-@pytest.mark.slow
 def test_the_report_is_whole(tab):
     report = report_file(*tab.home.fit).decode()
     assert report.count("<svg") == 3
@@ -205,82 +191,65 @@ def test_the_recipe_is_one_page(chromium):
         assert len(re.findall(rb"/Type\s*/Page[^s]", printed)) == 1
 
 
-def opened(server, chromium, query="?tab=measure", width=1400):
-    """(the page, the errors in it)."""
-    page, errors = chromium.new_page(viewport={"width": width, "height": 1000}), []
-    page.set_default_timeout(180_000)
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.add_init_script("localStorage.setItem('tippe:tour', '1')")
-    page.goto(f"{server}{query}")
-    return page, errors
-
-
-@pytest.mark.served
-def test_a_saved_film_and_a_link_open_in_another_browser(server, chromium):
-    """With the fit that was saved with it, which is not made again."""
-    page, errors = opened(server, chromium)
-    page.get_by_text("This top slipped.").wait_for()
-    numbers = page.locator("table").first.inner_text()
-    expect(page.get_by_role("button", name="Take home")).to_be_enabled()  # the fit is stored
-    page.get_by_role("button", name="Take home").click()
-    with page.expect_download() as brought:
-        page.get_by_text("Residuals (CSV)").click()
-    assert len(Path(brought.value.path()).read_text("utf-8").splitlines()) == 1 + 2 * 216
-    with page.expect_download() as brought:
-        page.get_by_text("The film, to be opened again").click()
-    film = Path(brought.value.path()).read_text("utf-8")
-    page.get_by_label("The data in the page’s link").check()
-    page.wait_for_function("() => location.href.includes('film=')")
-    link = page.url
-    page.close()
-    for query, text in ((link.removeprefix(server), ""), ("?tab=measure", film)):
-        other = chromium.new_context()
-        page = other.new_page()
-        page.set_default_timeout(180_000)
-        page.goto(f"{server}{query}")
-        page.get_by_role("heading", name="This top slipped.").wait_for()
-        if text:
-            page.evaluate(DROP, text)
-        page.get_by_text("was saved with the film").wait_for()
-        assert page.locator("table").first.inner_text() == numbers
-        other.close()
-    assert not errors
-
-
 DROP = """text => { const brought = new DataTransfer();
   brought.items.add(new File([text], "mine.txt", { type: "text/plain" }));
   for (const type of ["dragover", "drop"])
     window.dispatchEvent(new DragEvent(type, { dataTransfer: brought, bubbles: true, cancelable: true })); }"""
 
 
+def brought(page, label):
+    """The text of the file that a click on these words saves."""
+    with page.expect_download() as download:
+        page.get_by_text(label).click()
+    return Path(download.value.path()).read_text("utf-8")
+
+
 @pytest.mark.served
-def test_an_example_is_fitted_on_a_phone_a_table_is_dropped_and_a_hand_pulls_its_start(server, chromium):
-    """Dropped anywhere on the page. A later file that is not a table gives a message and changes nothing; then the
-    dashed line is dragged."""
-    page, errors = opened(server, chromium)
-    page.get_by_text("Example: it slips").first.wait_for()
-    page.set_viewport_size({"width": 390, "height": 900})
-    page.get_by_role("button", name="Example: it rolls").click()
-    page.get_by_text("This top rolled.").wait_for()
-    for name, is_enabled in (("Take home", True), ("Fit", True), ("Stop", False)):
-        expect(page.get_by_role("button", name=name, exact=True)).to_be_enabled(enabled=is_enabled)
-    assert page.evaluate("document.documentElement.scrollWidth") == 390
-    page.set_viewport_size({"width": 1400, "height": 900})
-    page.evaluate(DROP, example("rolls").replace("# Nobody", "# Somebody"))
-    page.get_by_text("your own data").wait_for()
-    page.evaluate(DROP, "a letter\nto nobody\n")
-    page.get_by_role("alert").filter(has_text="No line holds numbers").wait_for()
-    assert page.get_by_text("your own data").count() == 1
-    picture = page.get_by_role("img", name="Tilt: what was measured and fitted, over time")
-    picture.wait_for()
-    box = picture.bounding_box()
-    # the range of time has 2 % more at both ends, between a margin of 52 px and one of 8
-    x, y = box["x"] + 52 + (box["width"] - 60) * 0.02 / 1.04, box["y"] + 80
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 60, y, steps=5)
-    page.mouse.move(x + 240, y, steps=10)
-    page.mouse.up()
-    page.get_by_text(re.compile(r"s: 0\.[12]\d\d \.\. 0\.746")).wait_for()
-    page.close()
-    assert not errors
+def test_a_film_is_saved_and_linked_and_another_is_dropped_fitted_and_pulled(server, chromium):
+    """The example's fit is stored, so it is there while the page is still being drawn."""
+    with chromium.new_context(viewport={"width": 1400, "height": 1000}, reduced_motion="reduce") as context:
+        page = context.new_page()
+        page.goto(f"{server}?tab=measure")
+        page.get_by_text("This top slipped.").wait_for()
+        numbers = page.locator("table").first.inner_text()
+        home = page.get_by_role("button", name="Take home")
+        expect(home).to_be_enabled()
+        home.click()
+        assert len(brought(page, "Residuals (CSV)").splitlines()) == 1 + 2 * 216
+        film = brought(page, "The film, to be opened again")
+        page.get_by_label("The data in the page’s link").check()
+        page.wait_for_function("() => location.href.includes('film=')")
+        link = page.url
+
+        page.get_by_role("button", name="Example: it rolls").click()
+        page.get_by_role("heading", name="This top rolled.").wait_for()
+        for name, is_enabled in (("Take home", True), ("Fit", True), ("Stop", False)):
+            expect(page.get_by_role("button", name=name, exact=True)).to_be_enabled(enabled=is_enabled)
+
+        page.evaluate(DROP, film)
+        page.get_by_text("was saved with the film").wait_for()
+        assert page.locator("table").first.inner_text() == numbers
+
+        page.evaluate(DROP, example("rolls").replace("# Nobody", "# Somebody"))
+        page.get_by_text("your own data").wait_for()
+        page.evaluate(DROP, "a letter\nto nobody\n")
+        page.get_by_role("alert").filter(has_text="No line holds numbers").wait_for()
+        assert page.get_by_text("your own data").count() == 1
+
+        picture = page.get_by_role("img", name="Tilt: what was measured and fitted, over time")
+        picture.wait_for()
+        box = picture.bounding_box()
+        # the range of time has 2 % more at both ends, between a margin of 52 px and one of 8
+        x, y = box["x"] + 52 + (box["width"] - 60) * 0.02 / 1.04, box["y"] + 80
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 60, y, steps=5)
+        page.mouse.move(x + 240, y, steps=10)
+        page.mouse.up()
+        page.get_by_text(re.compile(r"s: 0\.[12]\d\d \.\. 0\.746")).wait_for()
+    with chromium.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce") as phone:
+        page = phone.new_page()
+        page.goto(link)
+        page.get_by_text("was saved with the film").wait_for()
+        assert page.locator("table").first.inner_text() == numbers
+        page.wait_for_function("document.documentElement.scrollWidth == 390")

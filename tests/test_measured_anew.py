@@ -6,7 +6,6 @@ import pytest
 from app.model.explorer import Explorer
 from app.model.measured.film import Film, packed, written
 from app.model.measured.made import LAW
-from app.model.runs import Runs
 from app.tabs.measure.measure import Measure
 from app.text import LANGUAGES, speaking
 from tippe_core import Scales, Top
@@ -120,7 +119,7 @@ def test_a_table_whose_lines_are_too_long_is_said_with_its_size(fitted):
 
 
 def test_a_part_that_is_long_enough_again_takes_the_sentence_away():
-    tab = Measure(Explorer().scene)
+    tab = Measure(Explorer().scene, Later())
     tab.take(KNOWN)
     tab._pulled(0.98)
     assert 'role="alert"' in tab.said.object and is_blank(tab)
@@ -131,8 +130,7 @@ def test_a_part_that_is_long_enough_again_takes_the_sentence_away():
 def test_what_is_still_being_computed_of_one_film_is_not_shown_with_the_next():
     runs = Later()
     tab = Measure(Explorer().scene, runs)
-    tab.take(KNOWN)
-    tab.compute()
+    tab.take_example("slips")
     guess, fit = (runs.begun[kind].result() for kind in ("guess", "fit"))
     late = [(runs.begun["guess"], guess), (runs.begun["fit"], fit)]
     tab.take(UNKNOWN)
@@ -159,7 +157,7 @@ def film_of(tab, **change):
 
 
 def test_a_saved_film_leaves_neither_its_law_nor_its_place_in_the_link():
-    tab = Measure(Explorer().scene, Runs())
+    tab = Measure(Explorer().scene, Later())
     tab.take(KNOWN)
     film = film_of(tab)
     tab.take(film)
@@ -173,10 +171,10 @@ def test_a_saved_film_leaves_neither_its_law_nor_its_place_in_the_link():
 
 
 def test_a_link_keeps_its_film_when_it_is_opened():
-    tab = Measure(Explorer().scene)
+    tab = Measure(Explorer().scene, Later())
     tab.take(KNOWN)
     letters = packed(film_of(tab))
-    other = Measure(Explorer().scene)
+    other = Measure(Explorer().scene, Later())
     other.filmed.film = letters
     assert other.view is not None and other.filmed.film == letters and other.law.value == "viscous"
 
@@ -192,7 +190,6 @@ def chosen(tab, i):
 
 NAMES = [
     PASCO,
-    ("Latest: Time (s)", "Latest: Theta (rad)", "Latest: Angular Velocity (rad/s)"),
     ("Zeit A [s]", "Winkel A in rad", "Drehung A [rad/s]"),
     ("A (1) (s)", "B (2) (rad)", "C (3) (rad/s)"),
 ]
@@ -200,13 +197,13 @@ NAMES = [
 
 @pytest.mark.parametrize("names", NAMES)
 def test_a_file_by_hand_has_the_numbers_that_it_has_by_itself(names):
-    tab = Measure(Explorer().scene)
+    tab = Measure(Explorer().scene, Later())
     tab.take(table(names))
     for i, quantity in enumerate(("time", "tilt", "spin")):
         chosen(tab, i)[0].value = quantity
         assert not chosen(tab, i)[2]
     assert [chosen(tab, i)[1].value for i in range(3)] == ["s", "rad", "rad/s"]
-    by_hand, tab_itself = tab._data, Measure(Explorer().scene)
+    by_hand, tab_itself = tab._data, Measure(Explorer().scene, Later())
     tab_itself.take(KNOWN)
     np.testing.assert_array_equal(by_hand.series["tilt"].values, tab_itself._data.series["tilt"].values)
     np.testing.assert_allclose(by_hand.series["tilt"].values[[0, -1]], [0.1, 0.985], atol=1e-9)
@@ -221,7 +218,7 @@ def test_the_unit_is_that_in_the_name_of_a_column(name, quantity, unit, size, va
     """The numbers were converted by hand."""
     ramp = np.linspace(0, size, 60)
     by_hand = {"time": "tilt (rad)"}.get(quantity, "t (s)"), TILT if quantity == "time" else T
-    tab = Measure(Explorer().scene)
+    tab = Measure(Explorer().scene, Later())
     tab.take(table((by_hand[0], name), by_hand[1], ramp))
     menu, of_unit, _ = chosen(tab, 1)
     menu.value = ""
@@ -232,7 +229,7 @@ def test_the_unit_is_that_in_the_name_of_a_column(name, quantity, unit, size, va
 
 
 def test_a_unit_that_no_name_says_is_guessed_until_somebody_chooses_it():
-    tab = Measure(Explorer().scene)
+    tab = Measure(Explorer().scene, Later())
     tab.take(table(("A", "B", "C (m)")))
     for i, quantity in enumerate(("time", "tilt", "spin")):
         chosen(tab, i)[0].value = quantity

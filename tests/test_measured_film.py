@@ -65,12 +65,10 @@ def test_a_table_alone_says_nothing_of_a_fit():
     assert opened("t\ttilt\n0\t1\n") is None
 
 
-@pytest.mark.slow
 def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
     """As it was, and says where it is from; what it leaves over is computed from the link's own data."""
     one = Measure(Explorer().scene)
-    held = replace(FILM, loose=())  # free, this film leaves correlations that only rounding decides
-    one.take(written(held, settled(read((FOLDER / "made-rolls.csv").read_bytes()))))
+    one.take_example("slips")
     one.compute()
     one.home.in_link.value = True
     monkeypatch.setattr(work, "fit", lambda *_: pytest.fail("fitted anew"))

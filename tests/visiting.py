@@ -113,6 +113,11 @@ def is_chosen(button):
     return "true" in (button.get_attribute("aria-selected"), button.get_attribute("aria-checked"))
 
 
+def texts(page):
+    """What stands in all fields, read in one go: a field that is replaced meanwhile has no value to wait for."""
+    return page.locator("input[type=text]").evaluate_all("fields => fields.map((field) => field.value)")
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(("localhost", 0))

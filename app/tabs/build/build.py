@@ -206,8 +206,12 @@ class Build:
     @staticmethod
     def _download(key, filename, content):
         given = {name: value for name, value in BUTTON.items() if name != "variant"}
-        button = pmui.FileDownload(label=say(f"build.bench.{key}"), filename=filename,
-                                   callback=lambda: io.BytesIO(content()), **given)  # fmt: skip
+
+        def file():
+            button.data = None  # the browser saves data that are new to it, so the same body would be saved only once
+            return io.BytesIO(content())
+
+        button = pmui.FileDownload(label=say(f"build.bench.{key}"), filename=filename, callback=file, **given)
         button.variant = BUTTON["variant"]  # given to the constructor, Panel takes it for a contradiction, and warns
         return button
 
