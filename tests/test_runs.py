@@ -13,12 +13,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from bokeh.document import Document
+from bokeh.document.events import DocumentChangedEvent
 from bokeh.server.tornado import BokehTornado
 from panel.io.application import build_single_handler_application
 from run_pages import PATIENCE, Page, all_busy, one_page, told
 from serving import until
+from tornado.ioloop import IOLoop
 from wire import run as run_async
 
+from app.borrowed import in_one_thread
 from app.model.runs import Run, Runs, Stopped, look, to_session
 from app.text import speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
@@ -103,7 +106,51 @@ def test_a_run_may_end_while_its_document_is_taken_apart():
         document.add_next_tick_callback(print)
     to_session(document)(print)
     with pytest.raises(AttributeError):  # but an error in a live one is reported
-        to_session(SimpleNamespace(session_context="open"))(print)
+        to_session(SimpleNamespace(session_context=SimpleNamespace(server_context=None)))(print)
+
+
+class Pausing(DocumentChangedEvent):
+    """A change that a document holds back: a thread that has found it there waits until all of them were let go."""
+
+    def __init__(self, document):
+        super().__init__(document)
+        self.reached, self.gone = threading.Event(), threading.Event()
+
+    def combine(self, event):
+        self.reached.set()
+        self.gone.wait(PATIENCE)
+        return False
+
+
+def test_what_a_thread_tells_is_not_lost_when_the_page_lets_its_changes_go():
+    """A click's result was lost so, once: the table in the address had changed, the picture never did."""
+    results = []
+
+    async def told_meanwhile():
+        server = BokehTornado({"/app": lambda document: None})
+        server.initialize(IOLoop.current())
+        in_one_thread(asyncio.get_running_loop(), server.applications["/app"])
+        session = await server.applications["/app"].create_session_if_needed("mine")
+        post, held = to_session(session.document), Pausing(session.document)
+
+        def tell():
+            post(lambda: results.append(threading.get_ident()))
+            held.reached.set()
+
+        session.document.hold()
+        session.document.callbacks.trigger_on_change(held)
+        thread = threading.Thread(target=tell)
+        thread.start()
+        held.reached.wait(PATIENCE)
+        session.document.unhold()
+        held.gone.set()
+        thread.join()
+        for _ in range(100):  # turns of the event loop
+            await asyncio.sleep(0)
+        return threading.get_ident()
+
+    mine = run_async(told_meanwhile())
+    assert results == [mine]
 
 
 def test_an_error_is_told_too(page):

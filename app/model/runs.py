@@ -16,6 +16,7 @@ from collections.abc import Callable, Hashable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from contextvars import ContextVar
+from functools import partial
 from typing import Any, TypeAlias
 
 from app.model.cores import cores
@@ -224,17 +225,31 @@ def look(reached: float = 0.0) -> None:
 
 
 def to_session(document: Document) -> Post:
-    """A function that calls another on the thread of a Bokeh document's session, for Runs."""
+    """A function that calls another on the thread of a Bokeh document's session, for Runs. To be called on that thread;
+    the function itself may be called on any.
 
-    def post(function: Piece) -> None:
+    Bokeh's add_next_tick_callback is safe on other threads only while nothing holds the document's changes back, as
+    Panel often does: otherwise the request joins these, and is lost if they are let go at the same moment. So the
+    server's own thread makes it.
+    """
+    loop = _loop_of(document)
+
+    def request(function: Piece) -> None:
         try:
             document.add_next_tick_callback(function)
         except AttributeError:
-            # Bokeh destroys a document in one thread and reports only afterwards that its session has ended.
+            # Bokeh destroys a document and reports only afterwards that its session has ended.
             if document.session_context is not None:
                 raise
 
-    return post
+    return partial(loop.add_callback, request) if loop else request
+
+
+def _loop_of(document: Document) -> Any:
+    """The event loop of the server that serves a Bokeh document; None if none does."""
+    server = document.session_context and document.session_context.server_context
+    application = server and server.application_context
+    return application and application.io_loop
 
 
 def connected_to(document: Document) -> Callable[[], bool]:
