@@ -125,7 +125,7 @@ def laid_out(page, figure, high):
 OURS = BEFORE.read_text(encoding="utf-8").partition("// 2.")[0]
 
 
-def a_figure_is_painted_without_asking_the_style_sheets(bare):
+def test_a_figure_is_painted_without_asking_the_style_sheets(bare):
     """1. The part of app/borrowed.js that runs before Panel's scripts."""
     assert painted(bare) > 20  # otherwise this patch is no longer needed
     bare.evaluate(f"() => {{ {OURS} }}")
@@ -148,25 +148,30 @@ def test_a_figure_makes_room_for_its_labels_in_itself(chromium):
     page.close()
 
 
-MUI = """Bokeh.documents.flatMap((each) => each.roots().flatMap((root) => [...root.references()]))
-  .find((one) => one.usesMui)"""
-
-
-def panel_takes_our_bundle_as_the_browser_has_it(measure):
+def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
     """2. The bundle runs once for all Panel components and for our own; Panel's own way would run it twice."""
+    page = chromium.new_page()
+    page.goto(f"{server}?v=1&tab=roll")
+    page.wait_for_selector(".bar .play")
     same = """async (way) => {
       const links = [...document.querySelectorAll("link[rel=modulepreload]")].map((link) => link.href);
       const href = links.find((address) => address.includes("tippe.js"));
       return (await way(href)).default === (await import(href)).default;
     }"""
-    assert measure.evaluate(f"() => ({same})(window.importShim)")
-    assert not measure.evaluate(f"() => ({same})(Object.getPrototypeOf(window.importShim))")  # else not needed
+    assert page.evaluate(f"() => ({same})(window.importShim)")
+    assert not page.evaluate(f"() => ({same})(Object.getPrototypeOf(window.importShim))")  # else not needed
+    page.close()
 
 
-def what_changes_before_a_react_component_listens_is_shown(measure):
+def test_what_changes_before_a_react_component_listens_is_shown(chromium, server):
     """3. Panel's own way would not read the value again."""
+    page = chromium.new_page()
+    page.goto(f"{server}?tab=measure")
+    found = "Bokeh.documents.flatMap((each) => each.roots().flatMap((root) => [...root.references()]))"
+    found += ".find((one) => one.usesMui)"
+    page.wait_for_function(f"() => {found}")
     reads = f"""(way) => {{
-      const one = {MUI};
+      const one = {found};
       let count = 0;
       const read = () => {{ count += 1 }};
       way.call(one, null, "label", read, true);
@@ -175,20 +180,12 @@ def what_changes_before_a_react_component_listens_is_shown(measure):
       return first;
     }}"""
     kind = 'Bokeh.Models.get("panel.models.esm.ReactComponent").prototype'
-    assert measure.evaluate(f"() => ({reads})({kind}.watch)") == 1
-    assert measure.evaluate(f"() => ({reads})(Object.getPrototypeOf({kind}).watch)") == 0  # else not needed
-
-
-def test_what_is_borrowed_of_panel_on_a_page_with_many_of_its_components(chromium, server):
-    page = chromium.new_page(reduced_motion="reduce")
-    page.goto(f"{server}?tab=measure")
-    page.wait_for_function(f"() => {MUI}")
-    panel_takes_our_bundle_as_the_browser_has_it(page)
-    what_changes_before_a_react_component_listens_is_shown(page)
+    assert page.evaluate(f"() => ({reads})({kind}.watch)") == 1
+    assert page.evaluate(f"() => ({reads})(Object.getPrototypeOf({kind}).watch)") == 0  # else not needed
     page.close()
 
 
-def a_place_of_a_figure_is_where_its_scales_say(bare):
+def test_a_place_of_a_figure_is_where_its_scales_say(bare):
     """4. Each corner of the frame, compared with Bokeh's own events, which are public."""
     bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")
     left, top = bare.evaluate("() => { const { left, top } = over.getBoundingClientRect(); return [left, top] }")
@@ -202,7 +199,7 @@ def a_place_of_a_figure_is_where_its_scales_say(bare):
         bare.evaluate("() => { window.told = null }")
 
 
-def what_hears_the_mouse_has_its_cursor(bare):
+def test_what_hears_the_mouse_has_its_cursor(bare):
     """5. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
     bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.heard = true })")
     bare.mouse.click(200, 150)
@@ -213,7 +210,7 @@ def what_hears_the_mouse_has_its_cursor(bare):
     assert bare.evaluate("() => borrowed.elementOf(fig).getBoundingClientRect().width") == 400
 
 
-def a_hand_that_rests_before_it_pulls_still_pulls(bare):
+def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
     """6."""
     bare.evaluate(
         "() => { window.heard = []; for (const name of ['press', 'panstart'])"
@@ -233,13 +230,6 @@ def a_hand_that_rests_before_it_pulls_still_pulls(bare):
     assert rest_and_pull() == ["press"]  # otherwise this patch is no longer needed
     bare.evaluate("() => borrowed.pressNever(fig)")
     assert rest_and_pull() == ["panstart"]
-
-
-def test_what_is_borrowed_of_bokeh_on_a_page_with_one_figure(bare):
-    a_place_of_a_figure_is_where_its_scales_say(bare)
-    what_hears_the_mouse_has_its_cursor(bare)
-    a_hand_that_rests_before_it_pulls_still_pulls(bare)
-    a_figure_is_painted_without_asking_the_style_sheets(bare)
 
 
 # ---- of three.js ----
@@ -286,18 +276,13 @@ def space(chromium):
     page.close()
 
 
-def a_target_has_the_colours_of_a_screen(space):
+def test_a_target_has_the_colours_of_a_screen(space):
     """7."""
     assert space.evaluate("() => window.pixel(true).bytes")[0] == 128
     assert space.evaluate("() => window.pixel(false).bytes")[0] < 80  # linear; else not needed
 
 
-def webgl_finds_what_three_has_drawn(space):
+def test_webgl_finds_what_three_has_drawn(space):
     """8."""
     found = space.evaluate("() => window.pixel(true)")
     assert found["buffer"] and found["same"] == found["bytes"] and found["same"][0] == 128
-
-
-def test_what_is_borrowed_of_three(space):
-    a_target_has_the_colours_of_a_screen(space)
-    webgl_finds_what_three_has_drawn(space)

@@ -10,6 +10,7 @@ import zxingcpp
 from PIL import Image
 from visiting import Visit
 
+from app.model.explorer import Explorer
 from app.model.scene import solve
 from tippe_core import Top
 
@@ -31,9 +32,8 @@ def go(chromium):
     """Opens an address in a new browser context; an error in the page fails the test."""
     visits = []
 
-    def open_(url, motion="reduce"):
-        page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion=motion)
-        visits.append(Visit(page, url))
+    def open_(url):
+        visits.append(Visit(chromium.new_page(viewport={"width": 1400, "height": 900}), url))
         return visits[-1]
 
     yield open_
@@ -50,7 +50,7 @@ def until_address(visit, pattern):
 
 
 def test_a_link_opens_the_same_picture_elsewhere(go, server):
-    visit = go(server, "no-preference")
+    visit = go(server)
     steps = visit.page.evaluate("history.length")
     slider = thumb(visit)
     slider.focus()
@@ -108,7 +108,7 @@ def test_undo_is_one_step_a_gesture(go, server):
     undo, redo = (visit.page.get_by_role("button", name=name) for name in ("Undo", "Redo"))
     visit.page.keyboard.press("Control+z")
     visit.until_column("theta", 0, "theta", before[0])
-    visit.page.wait_for_function("!location.search.includes('KJ=')")
+    visit.page.wait_for_function("['?tab=roll', '?v=2&tab=roll'].includes(location.search)")
     assert np.array_equal(visit.column("theta", 0, "theta"), before)
     visit.page.wait_for_function("button => button.disabled", arg=undo.element_handle())
     redo.click()
@@ -125,14 +125,21 @@ def test_undo_is_one_step_a_gesture(go, server):
     assert np.array_equal(visit.column("theta", 0, "theta"), dragged)
 
 
-def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
-    """Of a link with a bad value, which says so and shows the rest."""
-    visit = go(server + "?v=1&KJ=6.5&mu=.4&KR=%3Cscript%3Ealert(1)%3C/script%3E")
-    said = visit.page.get_by_role("alert").locator("visible=true").first
+@pytest.mark.parametrize("query", ["?KJ=%3Cscript%3Ealert(1)%3C/script%3E", "?body=" + 9_000 * "Z%3C"],
+                         ids=["script", "long"])  # fmt: skip
+def test_a_bad_link_says_so_and_shows_the_first_motion(go, server, query):
+    visit = go(server + query)
+    said = visit.page.get_by_role("alert").first
     said.wait_for()
     assert "link" in said.inner_text()
-    scene = solve(Top.paper(), 6.5, 10.0, 0.4, 0.9)
+    scene = Explorer().scene
     assert np.array_equal(visit.column("plane", 0, "slip_in"), scene.plane.slip.theta_inner)
+    assert np.array_equal(visit.column("theta", 0, "theta"), scene.trajectory.theta[::2])
+
+
+def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
+    visit = go(server + "?v=1&KJ=6.5&mu=.4")
+    scene = solve(Top.paper(), 6.5, 10.0, 0.4, 0.9)
     visit.page.get_by_role("button", name="Share").click()
     visit.page.get_by_role("button", name="The paper’s figures of this motion").click()
 
