@@ -1,7 +1,8 @@
 """Dragging in the pictures, in Chromium: what is dragged follows, and everything else with it."""
 
+import numpy as np
 import pytest
-from visiting import PIXEL, WHOLE, Visit, wait
+from visiting import COLUMN, IN_SIGHT, PIXEL, WHOLE, Visit, wait
 
 from app.model.roll.region import least_energy
 from app.model.scene import solve
@@ -10,7 +11,8 @@ from tippe_core import Constants, Top, roll, tielines, turning_points
 pytestmark = pytest.mark.served
 
 TOP = Top.paper()
-FIELDS = {"K_J": 0, "energy": 2}  # indices among the controls
+FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # indices among the controls
+STATE_FIELDS = {"theta": 0, "theta_dot": 1, "omega2": 2, "omega3": 3}
 
 # The motion on display, as Fig. 6 shows it.
 SELECTED = """
@@ -36,6 +38,12 @@ def until_selected(visit, **values):
     return selected(visit)
 
 
+def field(visit, place):
+    """The number in a visible field of the controls."""
+    text = visit.page.locator("input[type=text]:visible").nth(place).input_value()
+    return float(text.replace("−", "-"))
+
+
 def until_field(visit, place, value):
     visit.page.wait_for_function(
         """([i, value]) => {
@@ -48,10 +56,21 @@ def until_field(visit, place, value):
     )
 
 
-def top_stands_on(visit, constants):
+def show_state(visit):
+    visit.page.get_by_role("button", name="initial state").click()
+    visit.page.locator(":text('its rate'):visible").wait_for()
+
+
+def type_in(visit, place, text):
+    entry = visit.page.locator("input[type=text]:visible").nth(place)
+    entry.fill(text)
+    entry.press("Enter")
+
+
+def top_stands_on(visit, state_or_constants, **options):
     """Whether the first frame of the 3-D top belongs to this motion."""
     visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
-    q = roll(TOP, constants, [0.0]).quaternion[0]
+    q = roll(TOP, state_or_constants, [0.0], **options).quaternion[0]
     visit.page.wait_for_function(
         "q => Math.abs(__tippe.top3d.quaternion.reduce((sum, x, i) => sum + x * q[i], 0)) > 1 - 1e-6", arg=q.tolist()
     )
@@ -64,23 +83,39 @@ def stop_at_the_start(visit):
     visit.page.wait_for_function("__tippe.top3d.index == 0")
 
 
-def begin_again(visit, first):
-    """Shows the first motion, whatever the step before has done."""
-    page = visit.page
+@pytest.fixture(scope="module")
+def one(chromium, server):
+    """The page that all tests here share; nothing in it moves by itself."""
+    context = chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+    visit = Visit(context.new_page(), server)
+    visit.first_bead = selected(visit)["theta"]
+    visit.first = {name: selected(visit)[name] for name in ("K_J", "inner", "outer")}
+    yield visit
+    context.close()
+
+
+@pytest.fixture
+def visit(one):
+    """That page with its first motion, whatever an earlier test has done."""
+    page = one.page
+    page.mouse.up()  # in case a test failed with the button pressed
+    if page.get_by_role("button", name="constants", exact=True).get_attribute("aria-pressed") != "true":
+        page.get_by_role("button", name="constants", exact=True).click()
+        page.locator(":text('Routh’s constant'):visible").wait_for()
     # after releasing, the step of undo is made a moment later
     page.wait_for_function(
         f"""([undo, first]) => {{ undo.click(); const now = ({SELECTED})()
             return undo.disabled && Bokeh.documents[0].is_idle
                 && Object.entries(first).every(([name, value]) => now[name] == value) }}""",
-        arg=[page.get_by_role("button", name="Undo").element_handle(), first], polling=200)  # fmt: skip
+        arg=[page.get_by_role("button", name="Undo").element_handle(), one.first], polling=200)  # fmt: skip
     page.locator("[data-figure=plane]").first.scroll_into_view_if_needed()
+    return one
 
 
-def an_end_of_the_tieline_is_the_energy(visit):
-    """Also after a rest: Bokeh takes a pointer that rests for 0.3 s for a press, and does not drag."""
+def test_an_end_of_the_tieline_is_the_energy(visit):
     stop_at_the_start(visit)
     before = selected(visit)
-    visit.drag(visit.pixel("plane", before["outer"], 7.0), visit.pixel("plane", 0.86, 6.2), rest=400)
+    visit.drag(visit.pixel("plane", before["outer"], 7.0), visit.pixel("plane", 0.86, 6.2))
     after = until_selected(visit, outer=0.86, K_J=7.0)
     assert after["worst"] == 1
     visit.page.locator(".tippe-readout:visible", has_text="It would slip on the way").wait_for()
@@ -91,7 +126,41 @@ def an_end_of_the_tieline_is_the_energy(visit):
     top_stands_on(visit, Constants(7.0, 10.0, E))
 
 
-def the_tieline_itself_is_K_J(visit):
+def test_a_hand_that_rests_before_it_pulls_pulls_all_the_same(visit):
+    """Bokeh takes a pointer that rests for 0.3 s for a press, and does not drag."""
+    stop_at_the_start(visit)
+    outer = selected(visit)["outer"]
+    visit.drag(visit.pixel("plane", outer, 7.0), visit.pixel("plane", 0.86, 7.0), rest=700)
+    until_selected(visit, outer=0.86, K_J=7.0)
+    visit.page.mouse.up()
+
+
+# Whether the read-out is in the window, and covers neither the bead nor the tieline on display.
+CLEAR = """([ends, bead]) => {
+  const box = document.querySelector(".tippe-readout").getBoundingClientRect()
+  const inside = ([x, y]) => x > box.left && x < box.right && y > box.top && y < box.bottom
+  const on = Array.from({length: 21}, (_, i) => ends[0].map((x, k) => x + i / 20 * (ends[1][k] - x)))
+  const whole = box.left >= 0 && box.top >= 0 && box.right <= innerWidth && box.bottom <= innerHeight
+  return whole && ![...on, bead].some(inside)
+}"""
+
+
+def test_what_is_read_of_a_place_covers_neither_bead_nor_tieline(visit):
+    stop_at_the_start(visit)
+    place = selected(visit)
+    ends = [visit.pixel("plane", place[end], 7.0) for end in ("inner", "outer")]
+    for theta, K_J in ((0.5, 7.0), (0.39, 7.0), (0.76, 6.9), (0.6, 7.4), (1.2, 3.0), (3.0, 0.1), (0.05, 8.3)):
+        visit.page.mouse.move(*visit.pixel("plane", theta, K_J))
+        visit.page.locator(".tippe-readout:visible", has_text=f"{theta:.2f}").wait_for()
+        assert visit.page.evaluate(CLEAR, [ends, visit.pixel("plane", place["theta"], 7.0)])
+
+
+def test_the_bead_stands_at_the_motions_start_before_any_clock_moves(one):
+    """With reduced motion no clock runs; the bead is at the start of the motion, not at theta = 0."""
+    assert one.first_bead == pytest.approx(float(one.first["inner"]), abs=1e-4)
+
+
+def test_the_tieline_itself_is_K_J(visit):
     stop_at_the_start(visit)
     visit.drag(visit.pixel("plane", 0.62, 7.0), visit.pixel("plane", 0.62, 5.5))
     after = until_selected(visit, K_J=5.5)
@@ -99,7 +168,7 @@ def the_tieline_itself_is_K_J(visit):
     until_field(visit, FIELDS["K_J"], after["K_J"])
 
 
-def a_click_on_another_tieline_is_that_motion_at_its_limit(visit):
+def test_a_click_on_another_tieline_is_that_motion_at_its_limit(visit):
     visit.pause()
     visit.page.mouse.click(*visit.pixel("plane", 1.2, 3.01))
     after = until_selected(visit, K_J=3.0, inner=0.9804, outer=1.3242)
@@ -109,7 +178,7 @@ def a_click_on_another_tieline_is_that_motion_at_its_limit(visit):
     top_stands_on(visit, Constants(3.0, 10.0, E))
 
 
-def beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_says_why_not(visit):
+def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_says_why_not(visit):
     visit.page.mouse.click(*visit.pixel("plane", 1.1, 7.5))
     assert until_selected(visit, K_J=7.5, outer=1.1)["worst"] == 2
     visit.page.mouse.move(*visit.pixel("plane", 1.3, 6.0))
@@ -118,7 +187,7 @@ def beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_says_why
     visit.page.get_by_text("It cannot roll here: it would slip on the way").wait_for()
 
 
-def the_bead_moves_the_clock_and_nothing_else(visit):
+def test_the_bead_moves_the_clock_and_nothing_else(visit):
     stop_at_the_start(visit)
     visit.page.wait_for_function("""[...Bokeh.documents[0]._all_models.values()].some(
         (m) => m.type == "Label" && m.visible && m.text.startsWith("rolls again"))""")  # it appears last
@@ -139,33 +208,97 @@ def the_bead_moves_the_clock_and_nothing_else(visit):
     visit.page.mouse.up()
 
 
-def test_everything_in_the_pictures_of_roll_can_be_pulled(chromium, server):
-    """With reduced motion no clock runs; the bead is at the start of the motion, not at theta = 0."""
-    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
-        visit = Visit(context.new_page(), server)
-        at_first = selected(visit)
-        assert at_first["theta"] == pytest.approx(at_first["inner"], abs=1e-4)
-        for step in (
-            an_end_of_the_tieline_is_the_energy,
-            the_tieline_itself_is_K_J,
-            a_click_on_another_tieline_is_that_motion_at_its_limit,
-            beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_says_why_not,
-            the_bead_moves_the_clock_and_nothing_else,
-        ):
-            step(visit)
-            begin_again(visit, {name: at_first[name] for name in ("K_J", "inner", "outer")})
+def test_the_axis_of_a_paused_top_is_the_initial_tilt(visit):
+    show_state(visit)
+    visit.pause()
+    handle = visit.page.get_by_role("slider", name="Tilt of the axis")
+    box = handle.bounding_box()
+    tilt = float(handle.get_attribute("aria-valuenow"))
+    start = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    visit.drag(start, (start[0] - 30, start[1] + 30))
+    visit.page.wait_for_function("__tippe.top3d.t == 0")
+    visit.page.mouse.up()
+    handle.press("ArrowDown")
+    visit.page.wait_for_function("Bokeh.documents[0].is_idle && __tippe.top3d.t == 0")
+    # the handle shows the tilt of the field and of the start of the curve
+    visit.page.wait_for_function(
+        """([column, handle, before]) => {
+            const shown = Number(handle.getAttribute("aria-valuenow"))
+            return shown != before && Math.abs(eval(column)(["theta", 0, "theta"])[0] - shown) < 6e-4
+        }""",
+        arg=[COLUMN, handle.element_handle(), tilt],
+    )
+    theta = STATE_FIELDS["theta"]
+    wait(visit.page, lambda: field(visit, theta) == float(f"{visit.column('theta', 0, 'theta')[0]:.6g}"))
+
+
+def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(visit):
+    visit.pause()
+    show_state(visit)
+    for name, text in {"theta": "0.6", "theta_dot": "1.5", "omega2": "−2", "omega3": "9"}.items():
+        type_in(visit, STATE_FIELDS[name], text)
+        until_field(visit, STATE_FIELDS[name], float(text.replace("−", "-")))
+    constants = Constants.from_state(TOP, 0.6, 1.5, -2.0, 9.0)
+    visit.until_column("constants", 0, "K_J", constants.K_J)
+    visit.page.get_by_text(f"{constants.K_J:.4g}".replace("-", "−")).first.wait_for()
+    before = visit.column("theta", 0, "theta")
+    visit.page.get_by_role("button", name="constants", exact=True).click()
+    visit.page.locator(":text('Routh’s constant'):visible").wait_for()
+    for name in ("K_J", "K_R"):
+        until_field(visit, FIELDS[name], float(f"{getattr(constants, name):.6g}"))
+    until_field(visit, FIELDS["energy"], float(f"{constants.E:.6g}"))
+    show_state(visit)
+    assert [field(visit, place) for place in STATE_FIELDS.values()] == [0.6, 1.5, -2.0, 9.0]
+    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+    type_in(visit, STATE_FIELDS["theta"], "4")
+    alert = visit.page.locator("[role=alert]:visible")
+    alert.wait_for()
+    assert "θ" in alert.inner_text()
+    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+
+
+def test_the_floor_of_fig_5_can_be_pulled_and_says_why_not(visit):
+    visit.pause()
+    visit.page.locator("canvas[aria-label^='Figure 5']").evaluate(IN_SIGHT)
+    visit.page.wait_for_function(f"() => __tippe.surface3d.selected === ({SELECTED})().K_J")
+    _, outer = visit.page.evaluate("__tippe.surface3d.grips")
+    visit.drag(outer, (outer[0] + 25, outer[1] + 4))
+    visit.page.wait_for_function(f"() => ({SELECTED})().outer > 0.8")
+    assert selected(visit)["K_J"] == 7.0
+    visit.page.wait_for_function("__tippe.surface3d.readout.includes('on the way')")
+    visit.page.mouse.up()
+
+
+PORTRAITS = {"phase portrait": "phase", "f(θ)": "f", "effective potential": "potential", "unrolled": "ring",
+             "force in its disc": "force"}  # fmt: skip
+
+
+def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(visit):
+    visit.pause()
+    for name, figure in PORTRAITS.items():
+        visit.page.get_by_role("button", name=name).click()
+        visit.page.wait_for_function(
+            """name => {
+                const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers)
+                return m && Bokeh.index.find_one(m)?.frame?.bbox.width > 50
+            }""", arg=figure)  # fmt: skip
+        line = {"phase": 1, "force": 1, "potential": 1}.get(figure, 0)
+        t, x, y = (visit.column(figure, line, column).tolist() for column in "txy")
+        visit.page.locator(f"[data-figure={figure}]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
+        i = len(t) // 3
+        visit.page.mouse.click(*visit.pixel(figure, x[i], y[i]))
+        visit.page.wait_for_function(
+            """([name, column, renderer, x]) => Math.abs(eval(column)([name, renderer, "x"])[0] - x) < 0.02""",
+            arg=[figure, COLUMN, line + 1, x[i]])  # fmt: skip
 
 
 def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium, server):
-    """On a phone, of which nothing is wider."""
     phone = chromium.new_context(viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True,
                                  reduced_motion="reduce", user_agent="Android Mobile")  # fmt: skip
     visit = Visit(phone.new_page(), server, whole=False)
     page, touch = visit.page, phone.new_cdp_session(visit.page)
     page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
-    page.wait_for_function("document.documentElement.scrollWidth <= innerWidth")
-    box = page.locator("canvas").first.bounding_box()
-    assert 0 <= box["x"] and box["x"] + box["width"] <= 390
+    assert not page.evaluate("__tippe.top3d.playing")  # because of reduced motion
 
     def drag(x, y, by):
         for kind, at in (("touchStart", y), *(("touchMove", y + by * i / 8) for i in range(1, 9)), ("touchEnd", None)):

@@ -146,7 +146,8 @@ class ThreePlanes:
 
     def wait(self):
         """Follows a run under way, and shows its progress if it takes long."""
-        if self._work.busy and self._poll is None:
+        # without a page Panel would repeat it on any event loop that runs in this thread, and never end
+        if self._work.busy and self._poll is None and pn.state.curdoc:
             self._poll = pn.state.add_periodic_callback(self._look_at_run, period=POLL)
         elif not self._work.busy and self._poll is not None:
             self._poll.stop()
