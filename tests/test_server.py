@@ -8,7 +8,6 @@ import resource
 import signal
 import subprocess
 import sys
-from contextlib import suppress
 from html import escape
 from http.client import HTTPConnection
 from pathlib import Path
@@ -21,7 +20,7 @@ from bokeh.document import Document
 from bokeh.document.events import TitleChangedEvent
 from bokeh.protocol import Protocol
 from serving import served, until
-from tornado.httpclient import HTTPClientError, HTTPRequest
+from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 from wire import TOKEN, Closed, Visitor, get, run
 
@@ -34,12 +33,19 @@ ROOT = Path(__file__).parent.parent
 
 
 @pytest.fixture(scope="module")
-def server(tmp_path_factory):
+def running(tmp_path_factory):
     """Of few sessions and, at first, of few open files."""
     few = ["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh"] if sys.platform != "win32" else []
     with served(tmp_path_factory.mktemp("server") / "log", before=few, sessions=3, sessions_per_address=2,
                 linger=1) as server:  # fmt: skip
         yield server
+
+
+@pytest.fixture
+def server(running):
+    """The server, when the visitors of earlier tests are gone."""
+    until(lambda: '"sessions": 0' in get(running.root + "/liveness")[2] and get(running.url)[0] == 200)
+    return running
 
 
 @pytest.mark.parametrize("value", [[[]] * 10_001, [0] * 10_001, {"type": "bytes", "data": "H4sI"}, "deep"])
@@ -206,10 +212,7 @@ def test_a_session_has_few_sockets(server):
 
 def test_no_more_sessions_than_there_are_places_and_the_log_tells_no_key_of_a_vote(server):
     async def crowd():
-        inside = []
-        while len(inside) < 2:  # some of earlier tests may still count
-            with suppress(HTTPClientError):
-                inside.append(await Visitor.enter(server.url))
+        inside = [await Visitor.enter(server.url) for _ in range(2)]
         status, headers, text = get(f"{server.url}?tab=learn&room=ABCDEF.secret")
         assert status == 503 and headers["Retry-After"] and "Too many pages are open from your address." in text
         for visitor in inside:
