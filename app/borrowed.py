@@ -29,6 +29,7 @@ from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
 from panel.custom import JSComponent
 from panel.io.resources import LOCAL_DIST
+from tornado.websocket import WebSocketProtocol13
 
 from app.together import set_together
 
@@ -265,6 +266,24 @@ def counted(wrap, budget):
 def count(budget):
     """From now on counts what sessions do later."""
     ServerSession._wrap_document_callback = counted(ServerSession._wrap_document_callback, budget)
+
+
+def paced(receive):
+    """11. tornado's method that reads one frame of a websocket: after each the handler's pace() is awaited. tornado
+    itself answers pings and joins the parts of a message, and of neither does it tell the handler in a way that could
+    make a sender wait. We found no issue."""
+
+    async def received(protocol):
+        await receive(protocol)
+        if hasattr(protocol.handler, "pace"):  # a client has none
+            await protocol.handler.pace()
+
+    return received
+
+
+def pace():
+    """From now on each frame of a websocket is followed by its handler's pace()."""
+    WebSocketProtocol13._receive_frame = paced(WebSocketProtocol13._receive_frame)
 
 
 # --- for components

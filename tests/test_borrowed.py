@@ -31,8 +31,12 @@ from bokeh.server.tornado import BokehTornado
 from panel.custom import JSComponent
 from panel.io.resources import CDN_DIST, LOCAL_DIST
 from panel.io.state import set_curdoc
+from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop
 from tornado.locks import Lock
+from tornado.netutil import bind_sockets
+from tornado.web import Application
+from tornado.websocket import WebSocketHandler, WebSocketProtocol13, websocket_connect
 
 from app import borrowed
 from app.bundle import BUNDLE, Bundled
@@ -328,6 +332,39 @@ def test_what_a_session_does_later_goes_through_the_method_that_is_counted(monke
 class Asked(JSComponent):
     asked = param.Integer(default=0)
     _esm = "export function render() {}"
+
+
+def test_each_frame_of_a_websocket_is_followed_by_its_pace(monkeypatch):
+    """11. A ping, and a message in three frames of which two are empty."""
+    paces = []
+    monkeypatch.setattr(WebSocketProtocol13, "_receive_frame", WebSocketProtocol13._receive_frame)
+    borrowed.pace()
+
+    class Handler(WebSocketHandler):
+        async def pace(self):
+            paces.append(len(paces))
+
+        def on_message(self, message):
+            self.write_message(message)
+
+    async def send():
+        server = HTTPServer(Application([("/", Handler)]))
+        [listening] = bind_sockets(0, "127.0.0.1")
+        server.add_socket(listening)
+        client = await websocket_connect(f"ws://127.0.0.1:{listening.getsockname()[1]}/")
+        for first, mask_and_length, rest in (
+            (0x89, 0x80, b""),
+            (0x01, 0x81, b"x"),
+            (0x00, 0x80, b""),
+            (0x80, 0x80, b""),
+        ):
+            await client.protocol.stream.write(bytes([first, mask_and_length, 0, 0, 0, 0]) + rest)
+        said = await client.read_message()
+        server.stop()
+        return said
+
+    assert asyncio.run(send()) == "x"
+    assert len(paces) == 4
 
 
 def test_a_property_arrives_without_waiting(monkeypatch):

@@ -9,6 +9,8 @@ import signal
 import subprocess
 import sys
 import threading
+import time
+from importlib import metadata
 from pathlib import Path
 from types import SimpleNamespace
 from urllib.request import urlopen
@@ -21,8 +23,9 @@ from wire import Closed, Visitor, get, run
 from app.model.runs import Pool
 from app.server import ending
 from app.server.board import FIELDS, HEARD, Board
+from app.server.door import Door
 from app.server.ending import Ending
-from app.server.logs import Line, without_addresses
+from app.server.logs import Line, Seldom, refused, without_addresses
 from app.server.settings import Settings
 from app.text import say
 
@@ -42,6 +45,60 @@ def test_who_says_nothing_any_more_is_not_asked(monkeypatch):
     assert {worker: row["sessions"] for worker, row in board.read().items()} == {1: 5}
     board.leave()
     assert board.read() == {}
+
+
+def test_a_refusal_is_logged_once_in_ten_seconds_for_each_address_and_then_with_a_count(monkeypatch):
+    now, seldom, said = [50.0], Seldom(), []
+    monkeypatch.setattr("app.server.logs.time", SimpleNamespace(monotonic=lambda: now[0]))
+    logger = logging.Logger("tried")
+    logger.addHandler(handler := logging.Handler())
+    handler.addFilter(seldom)
+    handler.emit = lambda record: said.append(record.getMessage())
+    monkeypatch.setattr("app.server.logs.logging", SimpleNamespace(getLogger=lambda name: logger))
+    for address in ("10.0.0.1", "10.0.0.1", "10.0.0.2", "10.0.0.1"):
+        refused(address, "refused %s: full", address)
+    refused("10.0.0.1", "refused %s: 100 %% other", "10.0.0.1")
+    assert said == ["refused 10.0.0.1: full", "refused 10.0.0.2: full", "refused 10.0.0.1: 100 % other"]
+    now[0] += 10
+    refused("10.0.0.1", "refused %s: full", "10.0.0.1")
+    assert said[3:] == ["refused 10.0.0.1: full (2 more like this before)"]
+    for number in range(30_000):  # many addresses are not remembered for ever
+        now[0] += 0.01
+        refused(str(number), "refused %s: full", number)
+    assert len(seldom._said) <= 10_002
+
+
+class Kept:
+    """A session, as far as the door looks at it."""
+
+    def __init__(self, address, connections):
+        self.address, self.connection_count, self.expires = address, connections, False
+
+    def request_expiration(self):
+        self.expires = True
+
+
+def test_what_sessions_left_behind_hold_is_counted_to_their_address():
+    """An address that opens and closes pages keeps itself out, and nobody else."""
+    sessions = [Kept("a", 0) for _ in range(3)] + [Kept("b", 1)]
+    door = Door(Settings(sessions=4, sessions_per_address=3), SimpleNamespace(sessions=sessions))
+    door.sockets = [SimpleNamespace(address="b")]
+    assert door.refusal("a") == "crowded" and not door.full
+    assert door.refusal("b") is None and [each.expires for each in sessions] == [True, True, True, False]
+    sessions[:] = [Kept("a", 1) for _ in range(4)]
+    assert door.refusal("b") == "full" and door.full
+
+
+def test_no_more_pages_are_let_in_than_the_memory_of_the_container_has_room_for(monkeypatch):
+    monkeypatch.setattr("app.server.settings.memory_limit", lambda: 2 * 2**30)
+    assert (Settings.of({}).sessions, Settings.of({"TIPPE_WORKERS": "2"}).sessions) == (204, 83)
+    assert Settings.of({"TIPPE_SESSIONS": "9"}).sessions == 9
+    monkeypatch.setattr("app.server.door.memory_limit", lambda: 1e9)
+    monkeypatch.setattr("app.server.door.memory", lambda: used[0])
+    door, used = Door(Settings(sessions=4), SimpleNamespace(sessions=[])), [0.8e9]
+    assert door.refusal("a") is None
+    used[0] = 0.95e9
+    assert door.refusal("a") == "full" and door.full
 
 
 def test_a_pool_knows_how_many_wait_and_waited():
@@ -231,6 +288,11 @@ def test_a_server_with_a_prefix_says_how_it_is_until_it_stops(tmp_path):
         assert found["tippe_refused_total"][Labels(worker="0", why="message")] == 1
         assert found["tippe_queue_turns_total"][Labels(worker="0", queue="session")] == 2
         assert found["tippe_queue_length"][Labels(worker="0", queue="run")] == 0
+        assert found["tippe_moves_total"][one] >= 1 and 0 < found["tippe_moves_seconds_total"][one] < 60
+        assert found["tippe_sessions_made_total"][one] == 2 and found["tippe_bugs_total"][one] == 0
+        assert found["tippe_cpu_seconds_total"][one] > 0.1 and found["tippe_votes_away"][one] == 0
+        assert abs(found["tippe_start_time_seconds"][one] - time.time()) < 3600
+        assert found["tippe_build"] == {Labels(version=metadata.version("tippe-top-explorer")): 1}
         assert 0 <= found["tippe_event_loop_lag_seconds"][one] < 60
         assert found["tippe_memory_bytes"][one] > 1e8 and not found["tippe_open_files"][one] < 3
         assert server.process.wait(60) == 0

@@ -78,7 +78,8 @@ def page():
     guide.tour = rooms.room == room.USUAL
     pn.state.curdoc.template_variables.update(first.variables(text.spoken()))
     unseen = {"width": 0, "height": 0, "margin": 0}
-    around = [look, guide, pacer.painted, Connection(words=say("main.lost"), **unseen), Symbols(**unseen), failed]
+    lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
+    around = [look, guide, pacer.painted, lost, Symbols(**unseen), failed]
     return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},
                      main=[head.view, *share.main, *around, *rooms.columns], stylesheets=[*STYLE, *HEADLESS],
                      **BARE)  # fmt: skip

@@ -9,8 +9,9 @@ from functools import cache
 from http.client import responses
 from pathlib import Path
 
-from bokeh.server.urls import toplevel_patterns
+from bokeh.embed.bundle import extension_dirs
 from bokeh.server.views.ico_handler import IcoHandler
+from bokeh.settings import settings as bokeh_settings
 from panel.io.server import ComponentResourceHandler, get_static_routes
 from tornado.web import ErrorHandler, HTTPError, RequestHandler, StaticFileHandler
 
@@ -38,6 +39,8 @@ SENTENCE = Path(__file__).with_name("sentence.html").read_text(encoding="utf-8")
 class Answer:
     """Mixin of all handlers, also those of the libraries: these headers, and one line for an error."""
 
+    refused = False  # and the log says so
+
     def set_default_headers(self):
         for name, value in HEADERS.items():
             self.set_header(name, value)
@@ -64,7 +67,7 @@ def compressed(path, modified):
     return gzip.compress(Path(path).read_bytes(), mtime=0)
 
 
-class Files(Answer):
+class Files(Answer, StaticFileHandler):
     """Sends text compressed, which matters where no proxy does it: a classroom's Wi-Fi, where all come at once. Opens
     other files again for each piece; otherwise a slow connection would need two open files."""
 
@@ -96,6 +99,20 @@ class Files(Answer):
         start, end = start or 0, os.path.getsize(path) if end is None else end
         for at in range(start, end, PIECE):
             yield b"".join(super().get_content(path, at, min(at + PIECE, end)))
+
+
+class Extensions(Files):
+    """The files of Bokeh's extensions, each of which has a folder of its own."""
+
+    @classmethod
+    def get_absolute_path(cls, root, path):
+        name, _, file = path.partition(os.sep)
+        if name not in extension_dirs:
+            raise HTTPError(404)
+        return super().get_absolute_path(extension_dirs[name], file)
+
+    def validate_absolute_path(self, root, absolute_path):
+        return super().validate_absolute_path(extension_dirs[self.path.partition(os.sep)[0]], absolute_path)
 
 
 class Component(Files, ComponentResourceHandler):
@@ -146,10 +163,10 @@ class Root(Handler):
 
 
 def routes(application):
-    """All routes except the page; of those of Bokeh and Panel only the static files."""
+    """All routes except the page. Bokeh's own handlers of its files differ between its versions."""
     prefix = application.tippe.prefix
-    files = [(pattern, type(handler.__name__, (Files, handler), {}), *more) for pattern, handler, *more
-             in toplevel_patterns if issubclass(handler, StaticFileHandler)]  # fmt: skip
+    files = [(r"/static/extensions/(.*)", Extensions, {"path": ""}),
+             (r"/static/(.*)", Files, {"path": bokeh_settings.bokehjs_path()})]  # fmt: skip
     [(components, _, _)] = get_static_routes({})
     return [
         *((f"{prefix}{pattern}", *more) for pattern, *more in [("/?", Root), *files, (components, Component)]),
@@ -160,9 +177,11 @@ def routes(application):
 
 
 def log_request(handler):
-    """Logs like tornado, but without the query, which may contain the key of a teacher's vote; and 503, which is how a
-    full or stopping server answers, is no error."""
+    """Logs like tornado, but without the query, which may contain the key of a teacher's vote; and what a full or
+    stopping server answers, 503, and a server that is called by another name, 403, is in the log already."""
     status, request = handler.get_status(), handler.request
-    level = logging.INFO if status < 400 else logging.WARNING if status < 500 or status == 503 else logging.ERROR
-    logging.getLogger("tornado.access").log(level, "%d %s %s (%s)", status, request.method, request.path,
-                                            request.remote_ip)  # fmt: skip
+    level = logging.INFO if status < 400 or handler.refused else logging.WARNING if status < 500 else logging.ERROR
+    line = "%d %s %s (%s)"
+    seldom = {"seldom": (request.remote_ip, f"{line} {status}")} if level == logging.WARNING else {}
+    logging.getLogger("tornado.access").log(level, line, status, request.method, request.path, request.remote_ip,
+                                            extra=seldom)  # fmt: skip

@@ -5,19 +5,15 @@ import mmap
 import os
 import time
 from collections import deque
-from pathlib import Path
 
 import numpy as np
 from tornado.ioloop import IOLoop
 
 from app.kernels import compiling
 from app.model.runs import FILES, LATER, MAPS, WORK
+from app.model.votes.desk import DESK
+from app.server.memory import memory
 from app.turns import rooms
-
-try:
-    import resource
-except ImportError:  # Windows
-    resource = None
 
 STEP = 1.0  # s
 HEARD = 15.0  # s after which a worker that reports nothing counts as ended
@@ -27,17 +23,10 @@ POOLS = {"run": WORK, "later": LATER, "file": FILES, "map": MAPS}
 # Each reports how many wait, how many had their turn, and how long those waited.
 QUEUES = ("page", "session", "room", *POOLS)
 STATES = ("full", "stopping", "compiling")
-FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files",
+FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files", "moves", "moving", "bugs", "processor",
+          "started", "away",
           *(f"refused {why}" for why in REFUSALS),
           *(f"{queue} {each}" for queue in QUEUES for each in ("waiting", "turns", "waited")))  # fmt: skip
-
-
-def memory():
-    """Memory of this process in bytes; its maximum so far if the system reports only that; 0 if unknown."""
-    try:
-        return int(Path("/proc/self/statm").read_text().split()[1]) * mmap.PAGESIZE
-    except OSError:
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss if resource else 0
 
 
 def files():
@@ -73,7 +62,7 @@ class Watch:
 
     def __init__(self, board, door):
         self.board, self._door = board, door
-        self._delays = deque([0.0], REMEMBERED)
+        self._delays, self._started = deque([0.0], REMEMBERED), time.time()
 
     def start(self):
         """From now on, until the process ends."""
@@ -93,7 +82,8 @@ class Watch:
         self.board.write(
             full=door.full, stopping=door.stopping, compiling=compiling(), sessions=len(door.sessions),
             connections=len(door.sockets), delay=max(self._delays), memory=memory(),
-            files=files() if door.settings.metrics else np.nan,
+            files=files() if door.settings.metrics else np.nan, moves=door.moves, moving=door.moving, bugs=door.bugs,
+            processor=time.process_time(), started=self._started, away=DESK.away,
             **{f"refused {why}": door.refused[why] for why in REFUSALS},
             **{f"{name} waiting": queue.waiting() for name, queue in queues.items()},
             **{f"{name} turns": queue.turns for name, queue in queues.items()},

@@ -1,14 +1,17 @@
 """Admission of visitors, and how much of the server's own thread each session may take."""
 
+import math
 import time
 import types
 from collections import Counter
 from contextlib import contextmanager
 
+from app.server.memory import FILLED, memory, memory_limit
 from app.turns import Turns
 
-SHARE, SAVED = 0.5, 5.0  # share of the processor for one session, and s of it that a quiet session can save up
-LONGEST_WAIT = 0.25  # s, in addition to the cost of the message itself, so that "Cancel" gets through
+SHARE = 0.5  # of the processor, for all sessions together that use more than LIGHT
+LIGHT, SAVED, OWED = 0.02, 5.0, 1.0  # of it, of one session; s of it that one can save up, and s that it can owe
+SLOW = 0.25  # s of waiting that the log tells
 
 
 class Door:
@@ -19,6 +22,9 @@ class Door:
         self.sockets = set()  # of pages that were let in
         self.making, self.pages = Turns(pause=0.25), Turns(pause=4)
         self.stopping, self.refused = False, Counter()  # why -> how often
+        self.moves, self.moving = 0, 0.0  # how many messages were answered, and s that this took in all
+        self.bugs = 0  # errors of our own code
+        self._most = FILLED * memory_limit() / settings.workers
 
     @property
     def sessions(self):
@@ -26,8 +32,9 @@ class Door:
 
     @property
     def full(self):
-        """Whether no more pages are let in, after sessions whose page has closed have been dropped."""
-        return sum(bool(each.connection_count) for each in self.sessions) >= self.settings.sessions
+        """Whether no more pages are let in; a session whose page has closed keeps nobody out."""
+        open_pages = sum(bool(each.connection_count) for each in self.sessions)
+        return open_pages + self.making.waiting() >= self.settings.sessions or memory() > self._most
 
     @property
     def served(self):
@@ -39,24 +46,35 @@ class Door:
         """Whether there is no visitor, nor one about to enter."""
         return not (self.sessions or self.sockets or self.making.waiting() or self.pages.waiting())
 
+    def moved(self, took):
+        """Counts a message that was answered after so many s."""
+        self.moves, self.moving = self.moves + 1, self.moving + took
+
     def refusal(self, address):
         """The reason for refusing a page, a key of [server] in main.toml; None if there is room."""
         if self.stopping:
             return "stopping"
-        if len(self.sessions) + self.making.waiting() >= self.settings.sessions:
-            for session in self.sessions:
-                if not session.connection_count:  # its page has closed: Bokeh need not keep it for a reconnection
-                    session.request_expiration()
+        left = [session for session in self.sessions if not session.connection_count]  # for its page to come back
+        if len(self.sessions) + self.making.waiting() >= self.settings.sessions or memory() > self._most:
+            for session in left:
+                session.request_expiration()
+        if self.full:
             return "full"
-        if sum(socket.address == address for socket in self.sockets) >= self.settings.sessions_per_address:
+        mine = [session for session in left if getattr(session, "address", None) == address]
+        here = sum(socket.address == address for socket in self.sockets)
+        if here + len(mine) >= self.settings.sessions_per_address:
+            for session in mine:
+                session.request_expiration()
             return "crowded"
         return None
 
 
 class Budget:
-    """A session's share of the processor. A session over its share waits, and nothing is read from it meanwhile."""
+    """What a session takes of the processor. Those that take more than a little have one share together: each waits
+    until what all of them have taken is paid for, and nothing is read from it meanwhile."""
 
     _running = None  # the one being charged now; there is only one thread
+    _paid = -math.inf  # when what these sessions have taken will be paid for
 
     def __init__(self):
         self.left, self.at, self.spent, self.told = SAVED, time.monotonic(), 0.0, False
@@ -65,13 +83,17 @@ class Budget:
     def spend(self, seconds):
         """Charges seconds of the processor."""
         now = time.monotonic()
-        self.left = min(SAVED, self.left + SHARE * (now - self.at)) - seconds
+        self.left = max(-OWED, min(SAVED, self.left + LIGHT * (now - self.at)) - seconds)
         self.at, self.spent = now, self.spent + seconds
 
     def wait(self):
         """The time to wait after a message, s."""
-        seconds, self.spent = max(0.0, min(-self.left / SHARE, LONGEST_WAIT + self.spent)), 0.0
-        return seconds
+        spent, self.spent = self.spent, 0.0
+        if self.left >= 0:
+            return 0.0
+        now = time.monotonic()
+        Budget._paid = max(Budget._paid, now - spent) + spent / SHARE
+        return max(0.0, Budget._paid - now)
 
     @contextmanager
     def work(self):

@@ -1,5 +1,6 @@
 """Answers for monitoring: whether the server is alive, whether it accepts new pages, and its metrics."""
 
+from app import VERSION
 from app.server.answers import Handler
 from app.server.board import QUEUES, REFUSALS, STATES
 
@@ -8,7 +9,7 @@ class Liveness(Handler):
     """Whether this worker answers, and its number of pages. If it does not answer for long, it may be restarted."""
 
     def get(self):
-        self.write({"live": True, "sessions": len(self.application.door.sessions)})
+        self.write({"live": True, "sessions": len(self.application.door.sessions), "version": VERSION})
 
 
 class Readiness(Handler):
@@ -40,6 +41,16 @@ class Metrics(Handler):
         ("tippe_compiling", "compiling", "1: kernels are compiled beside it"),
         ("tippe_memory_bytes", "memory", "Resident memory"),
         ("tippe_open_files", "files", "File descriptors"),
+        ("tippe_start_time_seconds", "started", "When the worker began, since 1970"),
+        ("tippe_votes_away", "away", "1: the store of the votes did not answer the last time"),
+    )
+
+    COUNTERS = (
+        ("tippe_cpu_seconds", "processor", "Time of the processor"),
+        ("tippe_sessions_made", "session turns", "Sessions that were made"),
+        ("tippe_bugs", "bugs", "Errors in this program's own code"),
+        ("tippe_moves", "moves", "Messages of pages that were answered"),
+        ("tippe_moves_seconds", "moving", "How long these took to be answered, in all"),
     )
 
     def collect(self):
@@ -55,8 +66,13 @@ class Metrics(Handler):
                     made.add_metric([worker, value][: 1 + len(other)], row[field.format(value)])
             return made
 
+        build = GaugeMetricFamily("tippe_build", "1; its label has the version", labels=["version"])
+        build.add_metric([VERSION], 1)
+        yield build
         for name, field, says in self.GAUGES:
             yield family(GaugeMetricFamily, name, says, field)
+        for name, field, says in self.COUNTERS:
+            yield family(CounterMetricFamily, name, says, field)
         yield family(CounterMetricFamily, "tippe_refused", "What was refused, and why", "refused {}", ["why"], REFUSALS)
         queue = (["queue"], QUEUES)
         yield family(GaugeMetricFamily, "tippe_queue_length", "How many wait", "{} waiting", *queue)

@@ -5,6 +5,7 @@ import logging
 import platform
 import re
 import sys
+import time
 from ipaddress import ip_address
 
 from tornado.iostream import StreamClosedError
@@ -29,6 +30,40 @@ def without_addresses(line):
         return word
 
     return WORD.sub(replaced, line)
+
+
+AGAIN = 10.0  # s
+MOST = 10_000  # that are remembered
+
+
+class Seldom(logging.Filter):
+    """Lets the same refusal of the same address through once in AGAIN, with how often it was held back before, so that
+    no visitor can fill the log. A record is such a refusal if it has `seldom`: the address, and what was refused."""
+
+    def __init__(self):
+        super().__init__()
+        self._said = {}  # (address, refusal) -> [when it was let through, how often it was not since]
+
+    def filter(self, record):
+        of = getattr(record, "seldom", None)
+        if of is None:
+            return True
+        now = time.monotonic()
+        when, held = self._said.get(of, (-AGAIN, 0))
+        if now - when < AGAIN:
+            self._said[of] = when, held + 1
+            return False
+        if len(self._said) > MOST:
+            self._said = {each: said for each, said in self._said.items() if now - said[0] < AGAIN and each != of}
+        self._said[of] = now, 0
+        if held:
+            record.msg, record.args = f"{record.getMessage()} ({held} more like this before)", ()
+        return True
+
+
+def refused(address, line, *values):
+    """Logs a refusal; values: of the line's places."""
+    logging.getLogger("tippe").warning(line, *values, extra={"seldom": (address, line)})
 
 
 class Line(logging.Formatter):
@@ -60,6 +95,7 @@ def begin(settings):
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True)
     logging.captureWarnings(True)
     [handler] = logging.getLogger().handlers
+    handler.addFilter(Seldom())
     handler.setFormatter(Line(settings.log_format == "json", settings.log_addresses))
     logging.getLogger("tippe").setLevel(settings.log.upper())
     sys.excepthook = lambda *error: logging.getLogger("tippe").critical("the server cannot go on", exc_info=error)

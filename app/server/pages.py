@@ -1,6 +1,5 @@
 """The page: generated once, handed out in turn."""
 
-import logging
 import re
 import secrets
 import time
@@ -11,9 +10,8 @@ from panel.io.server import server_html_page_for_session
 
 from app import text
 from app.server.answers import Handler, Root
+from app.server.logs import refused
 from app.widgets.waiting import waiting
-
-log = logging.getLogger("tippe")
 
 
 class Sheet:
@@ -48,14 +46,16 @@ class Page(Handler):
         app, address = self.application, self.request.remote_ip
         if not app.tippe.lets(self.request.host):
             app.door.refused["stranger"] += 1
-            log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
+            refused(address, "refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
+            self.refused = True
             self.say(403, self.words("stranger"))
             return
         hurried = app.door.pages.waiting(address) >= app.tippe.sessions_per_address
         refusal = "hurried" if hurried else app.door.refusal(address)
         if refusal:
             app.door.refused[refusal] += 1
-            log.warning("refused %s a page: %s", address, text.say(f"main.server.{refusal}", text.DEFAULT))
+            refused(address, f"refused %s a page: {text.say(f'main.server.{refusal}', text.DEFAULT)}", address)
+            self.refused = True
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return
         turn = await app.door.pages.turn(address)

@@ -6,7 +6,7 @@ import logging
 import os
 from contextlib import suppress
 
-from app.server.board import memory
+from app.server.memory import memory
 
 log = logging.getLogger("tippe")
 

@@ -30,7 +30,7 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
 
-from app import borrowed
+from app import VERSION, borrowed
 from app.kernels import compile_beside
 from app.server import health, logs
 from app.server.answers import log_request, routes
@@ -83,7 +83,8 @@ def serve(settings, sockets, show, board, parent=None):
     pn.state.add_periodic_callback(lambda: None, 1, count=1)  # Panel's first timer keeps the session that it is made in
     server.start()
     arrivals.start()
-    log.info("serving http://%s:%d%s/app", settings.address or "localhost", settings.port, settings.prefix)
+    where = settings.address or "localhost", settings.port, settings.prefix
+    log.info("serving http://%s:%d%s/app, version %s", *where, VERSION)
     if settings.show and parent is None:
         address = f"http://localhost:{settings.port}{settings.prefix}/app"
         threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
@@ -101,6 +102,7 @@ def prepared(settings, show):
 
     borrowed.mend()
     borrowed.count(budget)
+    borrowed.pace()
     application = Application(FunctionHandler(make))
     template = generate_session(application)  # of all pages, made before the first visitor comes
     template.document.callbacks.trigger_event(DocumentReady())

@@ -1,6 +1,7 @@
 """What an operator sets, by environment variables or on the command line of `python -m app`."""
 
 import argparse
+import math
 import os
 import re
 import sys
@@ -11,7 +12,9 @@ from pathlib import Path
 from bokeh.server.util import check_allowlist
 
 from app.model.votes.ballots import store
+from app.server.memory import FILLED, memory_limit
 
+OF_WORKER, OF_PAGE = 300e6, 8e6  # bytes; a page that has seen all rooms has five times as many
 PORT = re.compile(r":(\d+|\*)$")
 
 
@@ -83,6 +86,12 @@ def bound(text):
     return whole(0, 1_000_000 if hasattr(os, "fork") else 0)(text)
 
 
+def fitting(workers):
+    """How many pages of one room each of so many workers has memory for, at most 250."""
+    return max(1, min(250, int((FILLED * memory_limit() / workers - OF_WORKER) // OF_PAGE)
+                      if memory_limit() < math.inf else 250))  # fmt: skip
+
+
 def _setting(default, says, take=str):
     return field(default=default, metadata={"says": says, "take": take})
 
@@ -98,7 +107,8 @@ class Settings:
     frames: str = _setting("'self'", "pages that may show this one in a frame, as in a content security policy",
                            matching(r"[^;,\r\n]*", "sources of a CSP, by spaces"))  # fmt: skip
     workers: int = _setting(1, "processes on this port", forked)
-    sessions: int = _setting(250, "pages open at once, in each worker", whole(1, 100_000))
+    sessions: int = _setting(fitting(1), "pages open at once, in each worker; by default what fits into the memory",
+                             whole(1, 100_000))  # fmt: skip
     sessions_per_address: int = _setting(
         250, "the same, from one address; a whole class may share one", whole(1, 100_000)
     )
@@ -142,7 +152,7 @@ class Settings:
                 values[item.name] = item.metadata["take"](text.strip())
             except ValueError as error:
                 raise ValueError(f"{called} is {text.strip()!r}; allowed is {error}.") from None
-        return cls(**values)
+        return cls(**{"sessions": fitting(values.get("workers", 1))} | values)
 
     def lets(self, host):
         """Whether the server goes by this name, as in the Host header; a listed one without port is at 80 and 443."""

@@ -20,7 +20,8 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from app import text
 from app.server.answers import Answer
-from app.server.door import Budget, budget
+from app.server.door import SLOW, Budget, budget
+from app.server.logs import refused
 from app.server.messages import Refused, look_at
 from app.server.pieces import pieces_of
 from app.widgets.failure import tell
@@ -29,13 +30,16 @@ log = logging.getLogger("tippe")
 
 LARGEST_FRAGMENT = 256 * 1024  # bytes
 MOST_FRAGMENTS = 5  # of one message: header, metadata, content, and one buffer with a header
-EACH_MESSAGE, WHOLE_PAGE = 0.002, 0.08  # s: the least cost of a message, and of one that asks for the whole page
+# s: the least cost of a message, of one that asks for the whole page, and of a frame, of which a message has about five
+EACH_MESSAGE, WHOLE_PAGE, EACH_FRAME = 0.002, 0.08, 0.0003
 
 SOCKETS = 3  # of one session: that of its page, and remains of lost ones
 
 
 def ours(error):
     """Whether an error was raised in this project's own code, and so is one of its bugs."""
+    if isinstance(error, Refused):
+        return False
     here = str(Path(__file__).parents[2])
     # where others' code is only called
     through = (f"{here}/app/borrowed.py", f"{here}/app/server/")
@@ -46,11 +50,11 @@ def ours(error):
 
 def note(error, whose="a session"):
     """Logs what failed, in one line unless it is a bug of ours; returns a sentence for the sender."""
-    if not isinstance(error, Refused) and ours(error):
+    if ours(error):
         log.error("a bug, met by %s: %s", whose, "".join(traceback.format_exception(error)))
         return "The server could not do that; what is shown has not changed."
     name = type(error).__name__
-    log.warning("refused from %s: %s: %.300s", whose, name, " ".join(str(error).split()))
+    refused(whose, f"refused from %s: {name}: %.300s", whose, " ".join(str(error).split()))
     return str(error) if isinstance(error, Refused) else f"The server did not take that ({name})."
 
 
@@ -66,7 +70,11 @@ def prepare(document):
 class Socket(Answer, WSHandler):
     """Bokeh's handler, with a limit for everything of which a browser could take more than its share."""
 
-    token, fragments, refused = "", 0, False  # fragments: of the message that is coming in
+    token, fragments = "", 0  # fragments: of the message that is coming in
+
+    def __init__(self, *arguments, **named):
+        super().__init__(*arguments, **named)
+        self._before = Budget()  # of what comes before its session is there
 
     @property
     def address(self):
@@ -80,7 +88,9 @@ class Socket(Answer, WSHandler):
         if lets:
             return True
         self.application.door.refused["stranger"] += 1
-        log.warning("refused a connection to %s by a page of %.100r: TIPPE_ORIGINS", self.request.host, origin)
+        self.refused = True
+        line = "refused a connection to %s by a page of %.100r: TIPPE_ORIGINS"
+        refused(self.address, line, self.request.host, origin)
         return False
 
     def select_subprotocol(self, subprotocols):
@@ -133,7 +143,7 @@ class Socket(Answer, WSHandler):
             note(error, self.address)
             self._refuse_for("failed")
             return
-        session.budget = mine
+        session.budget, session.address = mine, self.address
         prepare(session.document)
         await self._greet(session)
 
@@ -160,25 +170,34 @@ class Socket(Answer, WSHandler):
     def _refuse(self, code, sentence, why="connection"):
         self.refused = True
         self.application.door.refused[why] += 1
-        log.warning("refused %s: %.200s", self.address, sentence)
+        refused(self.address, f"refused %s: {sentence[:200].replace('%', '%%')}", self.address)
         self.close(code, sentence.encode()[:120].decode(errors="ignore"))
 
+    @property
+    def _mine(self):
+        return self._before if self.connection is None else budget(self.connection.session)
+
+    async def pace(self):
+        """Charges a frame of whatever kind, and lets who sends more than a share wait before the next is read."""
+        mine = self._mine
+        mine.spend(EACH_FRAME)
+        wait = mine.wait()
+        if wait > SLOW and not mine.told:
+            log.warning("%s sends more than its share; it is read more slowly", self.address)
+        mine.told = wait > SLOW
+        if wait:
+            await asyncio.sleep(wait)
+
     async def on_message(self, fragment):
+        if self.ws_connection is None or self.ws_connection.is_closing():
+            return  # who has left gets no answer to what was read ahead
         if self.connection is None:
             self._refuse(1002, "A message came before the session was open.")
             return
-        mine = budget(self.connection.session)
+        mine = self._mine
         before = mine.spent
         least = await mine.steps(self._take(fragment))
-        if not least or self.connection is None:
-            return
         mine.spend(max(0.0, least - (mine.spent - before)))
-        wait = mine.wait()
-        if wait and not mine.told:
-            log.warning("%s sends more than its share; it is read more slowly", self.address)
-        mine.told = wait > 0
-        if wait:
-            await asyncio.sleep(wait)
 
     async def _take(self, fragment):
         """Adds a fragment, and answers if it was the last of a message; returns the least cost of that, else 0."""
@@ -193,7 +212,9 @@ class Socket(Answer, WSHandler):
         if message is None:
             return 0
         self.fragments = 0
+        start = time.monotonic()
         await self._answer(message)
+        self.application.door.moved(time.monotonic() - start)
         return WHOLE_PAGE if message.msgtype == "PULL-DOC-REQ" else EACH_MESSAGE
 
     async def _answer(self, message):
@@ -203,6 +224,7 @@ class Socket(Answer, WSHandler):
             act = ServerSession.pull if message.msgtype == "PULL-DOC-REQ" else ServerSession.patch
             reply = await act(message, self.connection)
         except Exception as error:
+            self.application.door.bugs += ours(error)
             sentence = note(error, self.address)
             self.application.door.refused["message"] += 1
             if self.connection is None:

@@ -12,3 +12,4 @@ class Connection(Bundled):
     """
 
     words = param.String(constant=True, doc="What it says.")
+    slow = param.String(constant=True, doc="What it says while the server has not answered for some seconds.")

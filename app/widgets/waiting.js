@@ -32,11 +32,32 @@ function recover(why) {
   tries(count + 1);
   setTimeout(() => location.reload(), Math.min(FIRST * 2 ** count, MOST) * (1 + Math.random()));
 }
+// What a page sends is answered. A server that hangs, or a line that was cut without a word, closes no socket: only the answer
+// is missing. Heard by notices.js.
+const SLOW = 5000, LOST = 30_000, LOOK = 500; // ms
+/** @param {WebSocket} socket */
+function listen(socket) {
+  const { send } = socket;
+  let since = 0, told = "";
+  socket.send = (data) => {
+    since ||= performance.now();
+    send.call(socket, data);
+  };
+  socket.addEventListener("message", () => { since = 0; });
+  const timer = setInterval(() => {
+    const waits = since && isHere() ? performance.now() - since : 0, now = waits > LOST ? "lost" : waits > SLOW ? "slow" : "";
+    if (now === told) return;
+    told = now;
+    window.dispatchEvent(new CustomEvent("tippe:answer", { detail: now }));
+  }, LOOK);
+  socket.addEventListener("close", () => clearInterval(timer));
+}
 const { WebSocket: Plain } = window;
 window.WebSocket = new Proxy(Plain, {
   construct(kind, given) {
     const socket = Reflect.construct(kind, given);
     asks = true;
+    listen(socket);
     socket.addEventListener("close", ({ code, reason }) => recover(code === GOING ? "stopping" : reason.split(":")[0]));
     return socket;
   },

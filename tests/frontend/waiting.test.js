@@ -9,6 +9,10 @@ const NAMES = ["coming", "made", "again", "now", "full", "crowded", "stopping", 
 const words = Object.fromEntries(NAMES.map((name) => [name, `<${name}>`]));
 
 class Socket extends EventTarget {
+  sent = [];
+  send(data) {
+    this.sent.push(data);
+  }
   end(code, reason) {
     this.dispatchEvent(Object.assign(new Event("close"), { code, reason }));
   }
@@ -18,14 +22,15 @@ class Socket extends EventTarget {
 function page(stored = new Map()) {
   const timers = [], heard = {}, place = { dataset: { words: JSON.stringify(words) }, style: {}, shown: [], remove() { this.gone = true; },
     replaceChildren(...parts) { this.shown = parts; }, get textContent() { return this.shown.filter((part) => typeof part === "string").join(""); } };
-  const window = { WebSocket: Socket }, loads = [];
-  const here = createContext({ window, URL, Proxy, Reflect, Math, JSON, Number, String,
+  const answers = [], window = { WebSocket: Socket, dispatchEvent: ({ detail }) => answers.push(detail) }, loads = [], clock = { now: 1000 };
+  const here = createContext({ window, URL, Proxy, Reflect, Math, JSON, Number, String, CustomEvent,
+    performance: { now: () => clock.now },
     document: { getElementById: () => place, createElement: () => ({ style: {} }) },
     sessionStorage: { setItem: (name, value) => stored.set(name, value), getItem: (name) => stored.get(name) ?? null },
     location: { reload: () => loads.push(true) }, addEventListener: (name, act) => { heard[name] = act; },
-    setTimeout: (act, wait) => timers.push({ act, wait }), setInterval: (act) => { heard.look = act; }, clearInterval() {} });
+    setTimeout: (act, wait) => timers.push({ act, wait }), setInterval: (act, every) => { heard[every === 200 ? "look" : "listen"] = act; }, clearInterval() {} });
   runInContext(`{${SCRIPT}}`, here);
-  return { here, timers, heard, place, loads, opens: () => new window.WebSocket("ws://here", ["bokeh", "token"]), window };
+  return { here, timers, heard, clock, answers, place, loads, opens: () => new window.WebSocket("ws://here", ["bokeh", "token"]), window };
 }
 
 for (const [code, reason, says] of [[4000, "full: The server is full.", "full"], [4000, "crowded: Too many.", "crowded"],
@@ -82,4 +87,31 @@ test("a script that does not come is like a lost connection", () => {
   heard["tippe:missing"]();
   assert.equal(place.textContent, "<lost> <again>");
   assert.equal(timers.length, 2);
+});
+
+test("a server that does not answer is said after 5 s and lost after 30, and one that answers again is not", () => {
+  const { here, heard, clock, answers, opens } = page(), socket = opens();
+  const later = (ms) => {
+    clock.now += ms;
+    heard.listen();
+  };
+  socket.send("hello");
+  later(60_000); // its page is still being made
+  here.Bokeh = { documents: [{}] };
+  socket.dispatchEvent(new Event("message"));
+  later(60_000); // nothing was asked
+  assert.deepEqual(answers, []);
+  socket.send("first");
+  later(4000);
+  socket.send("second");
+  later(2000);
+  assert.deepEqual(answers, ["slow"]);
+  socket.dispatchEvent(new Event("message"));
+  later(0);
+  assert.deepEqual(answers, ["slow", ""]);
+  socket.send("third");
+  later(6000);
+  later(25_000);
+  assert.deepEqual(answers, ["slow", "", "slow", "lost"]);
+  assert.deepEqual(socket.sent, ["hello", "first", "second", "third"]);
 });

@@ -196,6 +196,7 @@ interface FailureModel extends Model {
 
 interface ConnectionModel extends Model {
   words: string;
+  slow: string;
 }
 
 interface MomentsModel extends Model {

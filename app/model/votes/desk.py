@@ -55,6 +55,11 @@ class Desk:
         self.ask(lambda rooms: None, lambda result: None)  # wakes the thread if it sleeps
         return lambda: self._watches.discard(watch)
 
+    @property
+    def away(self):
+        """Whether the store did not answer the last time."""
+        return self._away[1] is not None
+
     def _serve(self):
         due = 0.0
         while True:

@@ -38,7 +38,7 @@ class Ballot:
 
     @property
     def view(self):
-        lost = Connection(words=say("main.lost"), width=0, height=0, margin=0)
+        lost = Connection(words=say("main.lost"), slow=say("main.slow"), width=0, height=0, margin=0)
         return pn.Column(self.lesson, self.phone, lost, sizing_mode="stretch_width", max_width=640, margin=0,
                          css_classes=["learn"])  # fmt: skip
 

@@ -48,17 +48,26 @@ const tellBack = () => window.dispatchEvent(new CustomEvent("tippe:back", { canc
 export function renderConnection({ model }) {
   const words = notice({ inset: "8px 8px auto", zIndex: 9999, padding: "10px 16px", background: colours.ink, textAlign: "center" });
   let recovering = false;
-  words.textContent = model.words;
   async function recover() {
     if (recovering) return;
     recovering = true;
+    words.textContent = model.words;
     if (tellLost()) document.body.append(words);
     for (let wait = FIRST; ; wait = Math.min(2 * wait, LONGEST)) {
       await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())));
       // An expired login redirects: then reloading leads to the login page.
-      const answer = await fetch("./readyz", { cache: "no-store", redirect: "manual" }).catch(() => null);
+      const answer = await fetch("./readyz", { cache: "no-store", redirect: "manual", signal: AbortSignal.timeout(LONGEST) }).catch(() => null);
       if (answer && answer.status < 500) return tellBack() && location.reload();
     }
   }
   Bokeh.documents[0].on_event("connection_lost", recover);
+  const hear = (/** @type {CustomEvent<string>} */ { detail }) => {
+    if (detail === "lost") recover();
+    if (recovering) return;
+    words.textContent = model.slow;
+    if (detail === "slow") document.body.append(words);
+    else words.remove();
+  };
+  window.addEventListener("tippe:answer", /** @type {EventListener} */ (hear));
+  model.on("remove", () => window.removeEventListener("tippe:answer", /** @type {EventListener} */ (hear)));
 }
