@@ -168,7 +168,7 @@ def test_what_changes_before_a_react_component_listens_is_shown(chromium, server
     page = chromium.new_page()
     page.goto(f"{server}?tab=measure")
     found = "Bokeh.documents.flatMap((each) => each.roots().flatMap((root) => [...root.references()]))"
-    found += ".find((one) => one.usesMui)"
+    found += ".find((one) => one instanceof Bokeh.Models.get('panel.models.esm.ReactComponent'))"
     page.wait_for_function(f"() => {found}")
     reads = f"""(way) => {{
       const one = {found};
