@@ -4,6 +4,7 @@ import logging
 import os
 import signal
 import sys
+from pathlib import Path
 
 from app.server.settings import Settings
 
@@ -17,11 +18,14 @@ def run():
     except ValueError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
+    from app.model.maps.kept import keep_in
     from app.model.votes.desk import DESK
     from app.page.page import show
     from app.server.server import main
 
     DESK.keep(settings.votes, settings.votes_per_address)
+    if settings.maps:
+        keep_in(Path(settings.maps))
     try:
         code = main(settings, show)
     except SystemExit as end:

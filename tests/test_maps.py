@@ -33,7 +33,7 @@ def level():
 
 @pytest.fixture(autouse=True)
 def nothing_kept(monkeypatch):
-    monkeypatch.setattr(kept, "_path", lambda asked: None)
+    monkeypatch.setattr(kept, "_folder", None)
     kept._memory.clear()
 
 
@@ -247,20 +247,30 @@ def test_an_impossible_cell_is_refused_and_the_others_are_run():
 
 
 def test_maps_are_kept_and_bounded(level, monkeypatch, tmp_path):
-    monkeypatch.setattr(kept, "_path", lambda asked: tmp_path / "maps" / f"{asked.seconds:g}.npz")
-    monkeypatch.setattr(kept, "AS_FILES", 2)
+    """Without a folder in memory alone; with one, as files up to so many bytes."""
     monkeypatch.setattr(kept, "IN_MEMORY", 1)
+    before = last(Map(cells=3, seconds=0.4))
+    kept.keep(before)
+    kept._memory.clear()
+    assert kept.recall(before.asked) is None
+    kept.keep_in(tmp_path / "maps")
+    kept.keep(before)
+    [file] = (tmp_path / "maps").iterdir()
+    monkeypatch.setattr(kept, "AS_FILES", 2.5 * file.stat().st_size)
     maps = [last(Map(cells=3, seconds=seconds)) for seconds in (0.1, 0.2, 0.3)]
     for each in maps:
         assert kept.recall(each.asked) is None
         kept.keep(each)
     assert len(kept._memory) == 1
-    assert {file.name for file in (tmp_path / "maps").iterdir()} == {"0.2.npz", "0.3.npz"}
+    assert len([*(tmp_path / "maps").iterdir()]) == 2
+    kept._memory.clear()
+    assert kept.recall(before.asked) is kept.recall(maps[0].asked) is None
     again = kept.recall(maps[1].asked)
     np.testing.assert_array_equal(again.end, maps[1].end)
     for name in UNITS:
         np.testing.assert_array_equal(again.columns[name], maps[1].columns[name])
-    (tmp_path / "maps" / "0.3.npz").write_bytes(b"broken")
+    for file in (tmp_path / "maps").iterdir():
+        file.write_bytes(b"broken")
     kept._memory.clear()
     assert kept.recall(maps[2].asked) is None
 

@@ -74,6 +74,13 @@ def votes(text):
     return text
 
 
+def writable(text):
+    """A folder in which files can be written."""
+    if not text or (os.path.isdir(text) and os.access(text, os.W_OK)):
+        return text
+    raise ValueError("a folder that is there, and in which the server may write")
+
+
 def measured(text):
     """Whether /metrics is served, which needs a package."""
     if whole(0, 1)(text) and find_spec("prometheus_client") is None:
@@ -117,6 +124,7 @@ class Settings:
     show: int = _setting(0, "1: open the page in this machine's browser", whole(0, 1))
     votes: str = _setting("", "file or redis://host:6379/0 where votes are kept; without it, a file of this user's",
                           votes)  # fmt: skip
+    maps: str = _setting("", "folder where computed maps are kept, up to 100 MB; without it, in memory alone", writable)
     votes_per_address: int = _setting(
         250, "votes in one room from one address; a whole class may share one", whole(1, 100_000)
     )

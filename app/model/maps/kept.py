@@ -1,5 +1,5 @@
-"""Maps that were computed before, shared by all visitors: the newest in memory, the others as files beside the kernels
-that computed them. Those that are shown first ship with the page, in app/data.
+"""Maps that were computed before, shared by all visitors: the newest in memory, and more of them as files if the operator
+names a folder. Those that are shown first ship with the page, in app/data.
 
     python -m app.model.maps.kept
 
@@ -22,9 +22,16 @@ from tippe_core import kept
 
 DATA = Path(__file__).parents[2] / "data"
 SHIPPED = {Map(): DATA / "map.npz", Map(body="The paper's tippe top"): DATA / "map-paper.npz"}
-IN_MEMORY, AS_FILES = 64, 400  # a map of 48 x 48 cells takes some 150 kB
+IN_MEMORY, AS_FILES = 64, 100_000_000  # maps; bytes, of which one of 48 x 48 cells takes some 80,000
+_folder: Path | None = None
 _memory: OrderedDict[Map, Level] = OrderedDict()
 _changing = threading.Lock()
+
+
+def keep_in(folder: Path) -> None:
+    """From now on maps are stored in this folder too."""
+    global _folder
+    _folder = folder
 
 
 def recall(asked: Map) -> Level | None:
@@ -47,16 +54,19 @@ def recall(asked: Map) -> Level | None:
 
 
 def keep(level: Level) -> None:
-    """Stores a complete map; the oldest files are deleted."""
+    """Stores a complete map; the oldest files are deleted, so that all have AS_FILES bytes at most."""
     _remember(level)
     path = _path(level.asked)
     if path is None:
         return
     with suppress(OSError):
-        path.parent.mkdir(exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
         _write(level, path)
-        for old in sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime)[:-AS_FILES]:
-            old.unlink(missing_ok=True)
+        left = AS_FILES
+        for file in sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime, reverse=True):
+            left -= file.stat().st_size
+            if left < 0:
+                file.unlink(missing_ok=True)
 
 
 def _write(level: Level, path: Path, kind: Any = float) -> None:
@@ -75,12 +85,10 @@ def _remember(level: Level) -> None:
 
 
 def _path(asked: Map) -> Path | None:
-    """The file's name is a hash of the map's contents; its folder is named after the sources of tippe_core."""
-    try:
-        folder = kept.folder()
-    except ImportError:  # no numba: nothing is stored
+    """The file's name is a hash of the map's contents and of the sources of tippe_core."""
+    if _folder is None:
         return None
-    return folder and folder / "maps" / f"{hashlib.sha256(repr(asked).encode()).hexdigest()[:32]}.npz"
+    return _folder / f"{hashlib.sha256(f'{asked!r} {kept.name()}'.encode()).hexdigest()[:32]}.npz"
 
 
 def main() -> None:
