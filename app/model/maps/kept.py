@@ -1,5 +1,5 @@
-"""Maps that were computed before, shared by all visitors: the newest in memory, and more of them as files if the operator
-names a folder. Those that are shown first ship with the page, in app/data.
+"""Maps that were computed before, shared by all visitors: the newest in memory, more as files if the operator names a
+folder. Those that are shown first ship with the page, in app/data.
 
     python -m app.model.maps.kept
 
