@@ -81,7 +81,14 @@ def run_csv(shown, link=""):
     lines += [f"{name} = {value} {unit}".rstrip() for name, (value, unit) in shown.parameters.items()]
     lines += [link] * bool(link) + [f"{name}: {what}" + f", in {unit}" * bool(unit)
                                     for name, (what, unit, _) in UNITS.items()]  # fmt: skip
-    return export.csv(lines, dict(export.columns(columns(shown))) | {"regime": shown.trajectory.regime})
+    words = {"regime": shown.trajectory.regime, "support": support(shown.trajectory)}
+    return export.csv(lines, dict(export.columns(columns(shown))) | words)
+
+
+def support(trajectory):
+    """What carries the top in each sample: "ball", "stem", "both" or "none", (n,)."""
+    since, on = zip(*trajectory.supports, strict=True)
+    return np.array(on)[np.searchsorted(since, trajectory.t, side="right") - 1]
 
 
 def run_npz(shown, link=""):
