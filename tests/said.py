@@ -48,7 +48,7 @@ class Run:
         return (self.t >= start - 1e-6) & (self.t <= end + 1e-6)
 
     def beyond(self, level, start=0.0):
-        """For how long the tilt is above a level, at most at a stretch, s; dips of 10 degrees and 0.1 s do not count."""
+        """For how long the tilt is above a level, at a stretch, s; dips of 10 degrees and 0.1 s do not count."""
         longest, since, last = 0.0, None, -np.inf
         for t, tilt in zip(self.t, self.tilt, strict=True):
             if t < start - 1e-6 or tilt < level - 10:
