@@ -48,14 +48,14 @@ class Run:
         return (self.t >= start - 1e-6) & (self.t <= end + 1e-6)
 
     def beyond(self, level, start=0.0):
-        """For how long the tilt is above a level, at most at a stretch, s."""
-        longest, since = 0.0, None
-        for t, high in zip(self.t, (self.tilt > level) & (self.t >= start - 1e-6), strict=True):
-            if high:
-                since = t if since is None else since
-                longest = max(longest, t - since)
-            else:
-                since = None
+        """For how long the tilt is above a level, at a stretch, s; dips of 10 degrees and 0.1 s do not count."""
+        longest, since, last = 0.0, None, -np.inf
+        for t, tilt in zip(self.t, self.tilt, strict=True):
+            if t < start - 1e-6 or tilt < level - 10:
+                since, last = None, -np.inf
+            elif tilt > level:
+                since = t if since is None or t - last > 0.1 else since
+                longest, last = max(longest, t - since), t
         return longest
 
 

@@ -17,7 +17,7 @@ from app.model.lab import ends, run
 from app.model.lab.ends import SPINS, ends_of, mixed
 from app.model.lab.lab import scene_of
 from app.model.lab.life import SECONDS
-from app.model.lab.run import TABLES, TOYS, motion_on
+from app.model.lab.run import TABLES, TOYS, motion_on, whole_on
 from app.model.regimes import ENDS
 from app.model.runs import Stopped
 from app.model.story import first_times, story
@@ -169,8 +169,7 @@ def test_what_another_thread_throws_away_is_found_whole_or_not_at_all(monkeypatc
                 other.result(1)
             return found
 
-    monkeypatch.setattr(ends, "slide_many", lambda *given, **how: None)
-    monkeypatch.setattr(ends, "codes_of", lambda many: ())
+    monkeypatch.setattr(ends, "_codes", lambda starts, look: ())
     monkeypatch.setattr(ends, "MOST", 1)
     monkeypatch.setattr(ends, "_kept", Slow())
     found = ends.ends_of(TOY, TILT, 0.77)
@@ -184,7 +183,7 @@ def test_what_another_thread_throws_away_is_found_whole_or_not_at_all(monkeypatc
 def test_the_strip_is_what_single_runs_do(toy):
     found = ends_of(toy, 6.0, 0.3)
     for i in (0, 50, 95):
-        motion = motion_on("ordinary", toy, float(SPINS[i]), 6.0, 0.3)
+        motion = whole_on("ordinary", toy, float(SPINS[i]), 6.0, 0.3)
         kinds = (("stands", "stands-on-stem"), ("inverted", "stands-inverted"))
         expected = next((code for code, kind in kinds if kind in codes(motion)), None)
         if expected is None:
@@ -192,6 +191,15 @@ def test_the_strip_is_what_single_runs_do(toy):
         assert found.codes[i] == expected, SPINS[i]
     if toy != "Top S":
         assert [segment.code for segment in found.segments].count("leans") > 1  # interleaved, and shown like that
+
+
+@pytest.mark.slow
+def test_what_rises_slowly_stands_too():
+    """With little friction: its own life stands from 8 to 16 s on, and after 6 s it leans."""
+    found = ends_of(TOY, 5.7, 0.05)
+    assert found.segments[-1].code == "stands" and found.segments[-1].least < 30
+    for spin in (30.0, 45.0):
+        assert "stands-on-stem" in codes(whole_on("ordinary", TOY, spin, 5.7, 0.05))
 
 
 @given(st.lists(st.sampled_from("ab"), min_size=1, max_size=30))

@@ -117,7 +117,7 @@ def test_where_runs_and_formula_disagree(level):
     assert why == "falls" and found.low <= one[0] <= found.high
     assert sum(count for _, count, _ in found.reasons) == found.count
     short = of_kind(last(Map(cells=9, seconds=0.5)), "lies")
-    assert short.reasons[0].why == "time" and short.count > found.count
+    assert short.reasons[0].why == "moving" and short.count > found.count
 
 
 def test_dry_friction_keeps_upright_what_may_not_stay():

@@ -44,13 +44,12 @@ def told(law, at, end, time_stem=np.nan, hops=0.0):
         ("contensou", LEFT, ("inverted",), {"beyond": "high"}),
         ("contensou", RIGHT, ("leaning", 1.0, 30.0), {"lies": "lifts"}),
         ("contensou", RIGHT, ("leaning", 1.0), {"lies": "falls"}),
-        ("viscous", RIGHT, ("leaning", 1.0), {"lies": "stem"}),
+        ("viscous", RIGHT, ("leaning", 1.0), {"lies": "falls"}),
         ("coulomb", RIGHT, ("rolling",), {"lies": "sticks"}),
-        ("contensou", RIGHT, ("moving",), {"lies": "time"}),
-        ("contensou", RIGHT, ("leaning",), {"lies": "pivoting"}),
-        ("smoothed", RIGHT, ("leaning",), {"lies": "time"}),
+        ("contensou", RIGHT, ("moving",), {"lies": "moving"}),
+        ("contensou", RIGHT, ("leaning",), {"lies": "leans"}),
         ("coulomb", RIGHT, ("upright",), {"lies": "sticks", "stays": "sticks"}),
-        ("contensou", RIGHT, ("upright",), {"lies": "time", "stays": "time"}),
+        ("contensou", RIGHT, ("upright",), {"lies": "slow", "stays": "slow"}),
         ("contensou", RIGHT, ("inverted",), {}),
     ],
 )
@@ -65,15 +64,15 @@ def test_each_reason_is_told_with_the_number_of_its_runs_the_most_frequent_first
     x, y = asked.centres(3)
     (found,) = disagreements(Level(asked=asked, x=x, y=y, end=ends, columns=dict.fromkeys(UNITS, none)))
     assert (found.kind, found.count, found.allowed, found.low, found.high) == ("lies", 4, 9, x[0], x[2])
-    assert found.reasons == (("pivoting", 3, (x[1], y[0])), ("time", 1, (x[1], y[1])))
+    assert found.reasons == (("leans", 3, (x[1], y[0])), ("moving", 1, (x[1], y[1])))
     first, second = (of_reason(found, k, asked) for k in (0, 1))
-    assert first.startswith("In this map, 4 of the 9 runs") and "3 of them: pivoting on the patch" in first
+    assert first.startswith("In this map, 4 of the 9 runs") and "3 of them: they come to lean on the way." in first
     assert "from 37.5 to 47.5 rev/s." in first and "at 42.5 rev/s." in of_reason(
         replace(found, low=x[1], high=x[1]), 0, asked
     )
-    assert second == "1 of them: the time is too short."
+    assert second == "1 of them: they are still on their way at the end."
     alone = replace(found, count=3, reasons=found.reasons[:1])
-    assert "The reason: pivoting on the patch" in of_reason(alone, 0, asked)
+    assert "All of them: they come to lean" in of_reason(alone, 0, asked)
 
 
 def test_what_stays_upright_was_too_short_or_has_lost_its_spin():
@@ -92,8 +91,8 @@ def test_what_stays_upright_was_too_short_or_has_lost_its_spin():
         spins = State(1e-9, 0.0, 0.0, cell.state.omega3, vx=0.0, vy=0.0)
         moved = slide(cell.top, spins, cell.friction, [0.0, cell.t_end])
         stable = abs(moved.omega[-1, 2]) < thresholds(cell.top).upright.spin
-        assert why == ("pivoting" if stable else "time")
-    assert {*said.values()} == {"pivoting", "time"}
+        assert why == ("pivoting" if stable else "slow")
+    assert {*said.values()} == {"pivoting", "slow"}
 
 
 def test_the_worst_number_may_be_below_zero():

@@ -46,21 +46,22 @@ def test_runs_that_go_on_from_one_another_lie_there_too_and_a_point_takes_no_C_J
 
 @pytest.mark.slow
 def test_the_life_of_a_toy_is_that_of_its_run_looked_at_closely():
-    """Its stem bears it where its ball is above the table, and it slips where its contact moves."""
+    """It stands where its tilt is beyond 170 degrees, and it slips where its contact moves."""
     cell = Map().at(28.6, 5.7)
     life, time = _life(cell, None), cell.scales.time
     t = np.linspace(0, 60 / time, 12_001)
     moved = slide(cell.top, cell.state, cell.friction, t, rtol=1e-6, edge=cell.edge)
-    s, c, (radius, height, rounding) = np.sin(moved.theta), np.cos(moved.theta), cell.edge
-    ball = moved.com[:, 2] + cell.top.a * c - 1  # its lowest point, above the table; and that of the stem
-    stem = ball + 1 + height * c - radius * s - rounding
-    stands, leaves = np.flatnonzero((stem < 1e-5) & (ball > 1e-5))[0], np.flatnonzero(stem < 1e-5)[-1]
+    high, half = moved.theta > np.radians(170), round(0.5 / (60 / 12_000))  # samples in half a second
+    stands = next(i for i in np.flatnonzero(high) if high[i : i + half].all())
+    leaves = np.flatnonzero(high)[-1]
     slips = np.flatnonzero(np.linalg.norm(moved.slip, axis=1) > 1e-9)[-1]
-    assert (life.stands, life.leaves) == pytest.approx(moved.t[[stands, leaves]] * time, abs=0.02)
+    assert (life.stands, life.leaves) == pytest.approx(
+        moved.t[[stands, leaves]] * time, abs=0.15
+    )  # it has a sample every 0.1 s
     assert life.stands < life.leaves < life.rolls < 60
     assert life.rolls == pytest.approx(moved.t[slips] * time, abs=0.11)  # it has a sample every 0.1 s
     said = of_life(SimpleNamespace(life=life, hysteresis=None))
-    assert "comes off it for the last time at" in said and "rolls without slipping" in said
+    assert "and stands there last at" in said and "rolls without slipping" in said
 
 
 @pytest.mark.slow
@@ -69,7 +70,7 @@ def test_what_stands_on_its_stem_at_the_end_does_not_come_off_it_there():
     life = _life(Map(law="smoothed").at(40.0, 5.7), None)
     assert np.isfinite(life.stands) and life.end > 170 and np.isnan(life.leaves) and np.isnan(life.rolls)
     said = of_life(SimpleNamespace(life=life, hysteresis=None))
-    assert "is on it still after 60 s" in said and "last time" not in said and "rolls" not in said
+    assert "is on it still after 60 s" in said and " last at" not in said and "rolls" not in said
 
 
 @pytest.mark.slow

@@ -43,8 +43,8 @@ def says(page, words):
 
 
 def the_first_look_says_that_only_sliding_turns_it_over(page, first):
-    says(page, r"^rough: never turns over: in rolling")
-    says(page, r"^smooth: never turns over")
+    says(page, r"^rough: does not turn over: in rolling")
+    says(page, r"^smooth: does not turn over")
     says(page, r"^sliding: leans on ball and stem: 118\.8° at 5 s; past 90° at 2\.\d+ s")
     page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["sliding"].t))
     shown = page.evaluate(COLUMN, ["planes-theta", "theta"])

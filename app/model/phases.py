@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.spans import GAP, Span, changes, lasting, outside, passes, running_mean, within
+from tippe_core import Trajectory
 from tippe_core.types import Array, Bools
 
 KINDS = ("flies", "lies", "stands-on-stem", "stands-upright", "stands-inverted", "over", "falls", "tips-back", "rises",
@@ -54,6 +55,23 @@ class Samples(NamedTuple):
     def fallen(self) -> Array:
         """How far the axis is from where its centre of mass is highest, (n,) in degrees: 180, or 0 where a < 0."""
         return self.tilt if self.a < 0 else 180.0 - self.tilt
+
+
+def samples(
+    moved: Trajectory, unit: float, turns: float, cuts: tuple[float, ...] = (), repeats: float = np.inf
+) -> Samples:
+    """The Samples of a motion; unit: the seconds in its unit of time; turns: the rev/s in that of angular velocity."""
+    since, on = zip(*moved.supports, strict=True)
+    until = *since[1:], moved.t[-1]
+    flights = tuple((unit * a, unit * b) for a, b, what in zip(since, until, on, strict=True) if what == "none")
+    return Samples(unit * moved.t, np.degrees(moved.theta), carried(moved, moved.t), moved.regime == "roll",
+                   turns * moved.omega[:, 2], moved.ledger.kinetic, flights, moved.top.a, cuts, repeats)  # fmt: skip
+
+
+def carried(moved: Trajectory, t: Array) -> NDArray[np.str_]:
+    """What the top stands on at the times t, in the motion's unit: "ball", "stem", "both" or "none"."""
+    since, on = zip(*moved.supports, strict=True)
+    return np.array(on)[np.searchsorted(since, t, side="right") - 1]
 
 
 class Phase(NamedTuple):

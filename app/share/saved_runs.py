@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
+from app.model.phases import carried
 from app.model.planes.picture import Setup
 from app.share import export, glb, prints
 from app.text import say
@@ -81,14 +82,8 @@ def run_csv(shown, link=""):
     lines += [f"{name} = {value} {unit}".rstrip() for name, (value, unit) in shown.parameters.items()]
     lines += [link] * bool(link) + [f"{name}: {what}" + f", in {unit}" * bool(unit)
                                     for name, (what, unit, _) in UNITS.items()]  # fmt: skip
-    words = {"regime": shown.trajectory.regime, "support": support(shown.trajectory)}
+    words = {"regime": shown.trajectory.regime, "support": carried(shown.trajectory, shown.trajectory.t)}
     return export.csv(lines, dict(export.columns(columns(shown))) | words)
-
-
-def support(trajectory):
-    """What carries the top in each sample: "ball", "stem", "both" or "none", (n,)."""
-    since, on = zip(*trajectory.supports, strict=True)
-    return np.array(on)[np.searchsorted(since, trajectory.t, side="right") - 1]
 
 
 def run_npz(shown, link=""):

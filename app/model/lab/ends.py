@@ -4,19 +4,23 @@ visitors."""
 import threading
 from collections import OrderedDict
 from collections.abc import Callable
+from functools import partial
 from itertools import groupby, pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.model import arrival
-from app.model.lab.run import PATCH, Toy, start_of
+from app.model.lab.run import PATCH, Start, Toy, start_of
 from app.text import say
-from tippe_core import Many, slide_many
-from tippe_core.types import Array
+from tippe_core import Many, State, States, Top, slide_many, thresholds
+from tippe_core.types import Array, Bools
 
 SPINS = np.linspace(0.0, 50.0, 101)  # rev/s: the whole range of the slider
 TIMES = np.arange(1.0, 6.01, 0.5)  # s: when it is checked whether the toy stands, because it may fall again
+LATER, LIFE = 2.0, 60.0  # s: then it is checked so often, and so long, of those of UNDECIDED that may come to stand
+UNDECIDED = ("leans", "upright")
 STANDS, LEANS = np.radians(170), np.radians(20)
 CLOSE = 2  # cells: if the end changes again within so few, the ends are called mixed
 MOST = 64  # the number of Ends that are stored
@@ -76,10 +80,7 @@ def ends_of(
     """The Ends of a toy. look: called with the share that is done; an exception that it raises stops the computation.
     Raises TopError."""
     starts = [start_of(toy, float(spin), tilt, mu, patch=patch) for spin in SPINS]
-    start, states = starts[0], np.array([[each.state] for each in starts], dtype=object)
-    times = TIMES / start.scales.time
-    many = slide_many(start.top, states, start.friction, times, edge=start.edge, progress=look)
-    found = Ends(SPINS, codes_of(many), start.part)
+    found = Ends(SPINS, _codes(starts, look or (lambda share: None)), starts[0].part)
     with _changing:
         _kept[toy, tilt, mu, patch] = found
         while len(_kept) > MOST:
@@ -112,7 +113,51 @@ def _taken(key: Key) -> bool:
     return free
 
 
-def codes_of(many: Many) -> tuple[str, ...]:
+def _codes(starts: list[Start], look: Callable[[float], object]) -> tuple[str, ...]:
+    """The codes of the runs: until TIMES[-1], and of those that may come to stand later, until they do, or roll."""
+    start, unit = starts[0], starts[0].scales.time
+    slides = partial(slide_many, start.top, friction=start.friction, edge=start.edge)
+    states = np.array([[each.state] for each in starts], dtype=object)
+    many = slides(state=states, t_end=TIMES / unit, progress=lambda share: look(share / 2))
+    codes, last = np.array(codes_of(many)), [values[:, -1].copy() for values in many.state_end]
+    left = np.flatnonzero(_may_stand(start.top, last) & np.isin(codes, UNDECIDED) & (many.end[:, -1] != "rolling"))
+    for t in np.arange(TIMES[-1], LIFE, LATER):  # they go on from where they are
+        if not len(left):
+            break
+        states = State(**{name: values[left] for name, values in zip(States._fields, last, strict=True)})  # type: ignore[arg-type]
+        more = slides(state=states, t_end=LATER / unit, progress=partial(_at_most, look, float(t / LIFE)))
+        for values, now in zip(last, more.state_end, strict=True):
+            values[left] = now
+        now = np.array(codes_of(Row(more.theta_end[:, None], more.end[:, None])))
+        codes[left] = np.where(now == "refused", codes[left], now)
+        left = left[np.isin(now, UNDECIDED) & (more.end != "rolling") & _may_stand(start.top, last)[left]]
+    return tuple(codes.tolist())
+
+
+def _at_most(look: Callable[[float], object], share: float, done: float) -> None:
+    look((1 + share) / 2)
+
+
+def _may_stand(top: Top, last: list[Array]) -> Bools:
+    """Whether runs that are in these fields of States may come to stand upside down: they have the energy, and are not
+    upright with a spin at which that is stable. Only for tops with a > 0."""
+    theta, theta_dot, omega2, omega3, *_, vx, vy = last
+    rise = top.a * np.sin(theta) * theta_dot
+    turning = top.I1 * (theta_dot**2 + omega2**2) + top.I3 * omega3**2
+    energy = (turning + vx**2 + vy**2 + rise**2) / 2 + 1 - top.a * np.cos(theta)
+    change = thresholds(top).upright
+    stays = change.stable == "always" or (change.stable == "below") & (np.abs(omega3) < change.spin) & (theta < LEANS)
+    return np.asarray((top.a > 0) & (energy > 1 + top.a) & ~np.asarray(stays))
+
+
+class Row(NamedTuple):
+    """What codes_of() reads of a Many."""
+
+    theta_end: Array
+    end: NDArray[Any]
+
+
+def codes_of(many: Many | Row) -> tuple[str, ...]:
     """The code of each row of runs; the runs in a row differ only in their length."""
     high = many.theta_end > STANDS
     stands, inverted = ((high & (many.end == end)).any(axis=1) for end in ("stem", "inverted"))

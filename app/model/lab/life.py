@@ -15,6 +15,7 @@ LIFE = 60.0  # s, at most
 AFTER = 2.0  # s that are still shown of a motion that goes on for ever
 NEAR, FAR = (0.5, 0.01), (1.0, 0.02)  # largest rotation (rad) and time (s) between two rows: up to SECONDS, and after
 MOST_ROWS = 6000
+ROUNDING = 1e-9  # relative
 
 
 T = TypeVar("T", bound=Setup)
@@ -27,7 +28,7 @@ def within(start: T) -> T:
     except TopError as error:
         if error.code != "too-many-turns":
             raise
-        return replace(start, seconds=float(error.numbers["most"]))
+        return replace(start, seconds=float(error.numbers["most"]) * (1 - ROUNDING))
     return start
 
 

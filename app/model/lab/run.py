@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from app.model import arrival
 from app.model.bodies import body
 from app.model.lab.life import SECONDS, lived, thinned, within
-from app.model.phases import Phase, Samples, phases
+from app.model.phases import Phase, carried, phases, samples
 from app.model.planes.picture import Motion, Setup, by_hand
 from app.model.planes.run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
@@ -101,12 +101,7 @@ class Watched(Motion):
     @property
     def carried(self) -> NDArray[np.str_]:
         """What the top stands on at the times of the trajectory: "ball", "stem", "both" or "none"."""
-        return self.carried_at(self.trajectory.t)
-
-    def carried_at(self, t: Array) -> NDArray[np.str_]:
-        """The same at the times t, in the trajectory's unit."""
-        since, on = zip(*self.trajectory.supports, strict=True)
-        return np.array(on)[np.searchsorted(since, t, side="right") - 1]
+        return carried(self.trajectory, self.trajectory.t)
 
     @property
     def rolls_since(self) -> float:
@@ -149,15 +144,9 @@ class Watched(Motion):
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
         """Its phases."""
-        moved, unit = self.trajectory, self.start.scales.time
-        since, on = zip(*moved.supports, strict=True)
-        until = *since[1:], moved.t[-1]
-        flights = tuple((unit * a, unit * b) for a, b, what in zip(since, until, on, strict=True) if what == "none")
-        return phases(Samples(
-            self.seconds, self.tilt, self.carried, moved.regime == "roll", moved.omega[:, 2] * self.start.turns,
-            moved.ledger.kinetic, flights, moved.top.a, tuple(self.cuts.values()),
-            0.0 if self.table == "ice" else float(np.nan_to_num(self.rolls_since, nan=np.inf)),
-        ))  # fmt: skip
+        rolls = float(np.nan_to_num(self.rolls_since, nan=np.inf))
+        return phases(samples(self.trajectory, self.start.scales.time, self.start.turns, tuple(self.cuts.values()),
+                              0.0 if self.table == "ice" else rolls))  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -126,26 +126,25 @@ def _disagreement(level: Level, kind: str, says: Bools, otherwise: Bools) -> Dis
 
 
 def _why(level: Level, kind: str, i: int, j: int) -> str:
-    """Why a run differs, determined from the run itself."""
+    """What a run does instead, as far as the run itself shows it; and the reason where that is computed."""
     end = str(level.end[i, j])
     if kind == "beyond":
         return "carries" if end == "stem" else "high"
     if end == "upright":
         return _stays(level.asked, float(level.x[j]), float(level.y[i]))
-    if np.isfinite(level.columns["time_stem"][i, j]):  # it turned over before it rolled or leaned
-        pivots = "falls" if level.asked.law == "contensou" else "stem"
-        return "lifts" if level.columns["hops"][i, j] > MANY else pivots
-    if end == "rolling":
-        return "sticks"
-    return "pivoting" if level.asked.law == "contensou" and end != "moving" else "time"
+    if np.isfinite(level.columns["time_stem"][i, j]):
+        return "lifts" if level.columns["hops"][i, j] > MANY else "falls"
+    return {"rolling": "sticks", "leaning": "leans"}.get(end, "moving")
 
 
 def _stays(asked: Map, across: float, up: float) -> str:
-    """Why a run stays upright: because pivoting brings its spin to where it is stable, or because it ends too soon."""
+    """Why a run stays upright: upright is stable too, or pivoting brings its spin to where it is; or that it does."""
+    excess, lost = _excess(asked, across, up)["leaves"], 0.0
+    if not excess > 0:
+        return "stable"
     if asked.law == "coulomb":
         return "sticks"
-    lost = 0.0
     if asked.law == "contensou":  # the torque of pivoting without slip is constant: 3 pi/16 mu F_z radius
         cell = asked.at(across, up)
         lost = 3 * np.pi / 16 * cell.friction.law.mu * cell.friction.law.width / cell.top.I3 * cell.t_end
-    return "pivoting" if _excess(asked, across, up)["leaves"] < lost else "time"
+    return "pivoting" if excess < lost else "slow"

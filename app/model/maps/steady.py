@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.maps.maps import QUANTITIES, Cell, Map
+from app.model.phases import phases, samples
 from tippe_core import States, Top, slide, slide_many, steady_states
 from tippe_core.paper import equations as eq
 from tippe_core.types import Array
@@ -35,8 +36,8 @@ class Line(NamedTuple):
 
 class Life(NamedTuple):
     """A long run over t (s): the spin of a start with the C_J that is left, and the tilt; the times at which it first
-    stands on its stem alone, at which the stem last leaves the table, and from which it rolls until the end, s, nan if
-    never; how long it was computed, s; and the final tilt."""
+    stands on its stem, at which it does so last, and from which it rolls until the end, s, nan if never; how long it
+    was computed, s; and the final tilt."""
 
     t: Array
     spin: Array
@@ -200,12 +201,10 @@ def _life(here: Cell, look: Look | None) -> Life:
     times = MOST_SECONDS / time * np.linspace(0, 1, DRIFT) ** 2
     moved = slide(here.top, here.state, here.friction, times, rtol=1e-6, edge=here.edge,
                   progress=look)  # fmt: skip
-    stems = [start * time for start, on in moved.supports if on == "stem"]
-    on_it = [on in ("stem", "both") for _, on in moved.supports]
-    last = max(np.flatnonzero(on_it), default=-1)
-    leaves = moved.supports[last + 1][0] * time if stems and not on_it[-1] else np.nan
-    stands = stems[0] if stems else np.nan
+    stands = [phase for phase in phases(samples(moved, time, 1 / (2 * np.pi * time))) if phase.kind == "stands-on-stem"]
+    first, last = (stands[0].start, stands[-1].end) if stands else (np.nan, np.nan)
+    leaves = last if stands and last < time * moved.t[-1] else np.nan
     slips = max(np.flatnonzero(moved.regime != "roll"), default=0)
     rolls = moved.t[slips + 1] * time if slips + 1 < len(moved.t) else np.nan
-    return Life(moved.t * time, np.abs(moved.jellett / launch(here)), np.degrees(moved.theta), stands, leaves, rolls,
+    return Life(moved.t * time, np.abs(moved.jellett / launch(here)), np.degrees(moved.theta), first, leaves, rolls,
                 float(moved.t[-1] * time), float(np.degrees(moved.theta[-1])))  # fmt: skip

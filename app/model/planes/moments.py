@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.model.lab.run import TABLES, Watched
+from app.model.phases import carried
 from app.model.planes.picture import SHORT, Motion, Settings
 from app.model.regimes import NAMES
 from app.model.story import happened
@@ -74,9 +75,9 @@ def _after(motion: Watched, t: float, part: str) -> str:
     """The state right after a time."""
     moved = motion.trajectory
     i = min(int(np.searchsorted(moved.t, t, side="right")), len(moved.t) - 1)
-    carried = str(motion.carried_at(np.asarray(t))) if moved.supports else "ball"
+    on = str(carried(moved, np.asarray(t)))
     does = say(f"regimes.stretch.{NAMES[int(motion.frames[-1][i])]}")
-    if carried != "none":
-        does += " " + say(f"planes.spells.on.{ON.get(carried, 'ball')}", part=part)
+    if on != "none":
+        does += " " + say(f"planes.spells.on.{ON.get(on, 'ball')}", part=part)
     return say("planes.moments.after", does=does, tilt=float(np.degrees(moved.theta[i])),
                K_J=float(moved.jellett[i] / moved.top.I1), K_R=float(moved.routh[i]))  # fmt: skip

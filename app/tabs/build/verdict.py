@@ -7,7 +7,7 @@ from app.model.arrival import MU, SPIN, TILT
 from app.model.build.verdict import verdict
 from app.model.colours import COLOURS
 from app.model.ends import COLOUR_IN_LAB
-from app.model.lab.ends import SPINS, TIMES, Ends, ends_once, known_ends
+from app.model.lab.ends import LIFE, SPINS, Ends, ends_once, known_ends
 from app.model.lab.run import toy_of
 from app.model.runs import LATER, Run, Stopped
 from app.text import say, told, written
@@ -110,7 +110,7 @@ def strip_of(ends, why=""):
     """The ends of runs over the spin, with a mark at the spin of the verdict; None: they are not computed yet, or, with
     why, they cannot be."""
     low, high = float(SPINS[0]), float(SPINS[-1])
-    says = say("build.verdict.strip", count=len(SPINS), seconds=float(TIMES[-1]), tilt=TILT, mu=MU)
+    says = say("build.verdict.strip", count=len(SPINS), seconds=LIFE, tilt=TILT, mu=MU)
     waits = html.escape(spelled(why or say("build.verdict.strip_waits")))
     at = f"{100 * (SPIN - low) / (high - low):.2f}%"
     mark = f'<i class="mark" style="left: {at}"></i>'

@@ -81,7 +81,8 @@ def fate(picture, plane):
                     part=part(picture.settings))  # fmt: skip
     elif plane == "rough" and any(which == WOULD_LIFT for *_, which in motion.stretches):
         lifts = say("planes.fate.pulls")
-    return say(f"planes.fate.{plane}", between=between, lifts=lifts) + (_gripped(picture) if plane == "rough" else "")
+    key = plane if theta.max() < np.pi / 2 else "swings"  # what passes 90 degrees is not said to stay below
+    return say(f"planes.fate.{key}", between=between, lifts=lifts) + (_gripped(picture) if plane == "rough" else "")
 
 
 def _gripped(picture):
@@ -211,8 +212,12 @@ def ball_words(picture):
         if heat > ROUNDING:
             return say("planes.verdict.impacts", heat=heat)
         return "" if sliding and sliding.ended else say("planes.verdict.forever")
-    says = say("planes.verdict.ball" if settings.edge else "planes.verdict.whole",
+    patch = settings.law == "contact"  # its torque takes J, on which the outcome depends
+    of = "patch" if patch else "ball" if settings.edge else "whole"
+    says = say(f"planes.verdict.{of}",
                sentence=html.escape(outcome_words(picture.outcome, settings.scales)), part=part(settings))  # fmt: skip
+    if patch and sliding is not None:
+        return says + say("planes.verdict.pivots", drift=100 * sliding.drift["J"])
     if settings.edge is None or sliding is None:
         return says
     until, event, _ = sliding.alone
