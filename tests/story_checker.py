@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 import numpy as np
+import story_kept
 import story_phases
 import story_words
 from story_said import Said
@@ -80,7 +81,7 @@ def told_by(queries, command=(sys.executable, "-c", WORKER)):
         for query in queries:
             worker.stdin.write(query + "\n")
             worker.stdin.flush()
-            yield json.loads(worker.stdout.readline())
+            yield json.loads(worker.stdout.readline() or '{"error": "the process of tell has ended"}')
         worker.stdin.close()
 
 
@@ -96,11 +97,11 @@ def faults(told, stemless=False):
         for text, phase, whole in texts(run, table):
             said = Said(text, run, phase, runs, stemless, whole)
             bad += [(kind, name, why) for kind, why in story_words.faults(said)]
-        bad += [(kind, name, why) for kind, why in story_words.kept_faults(run, table["kept"])]
-    whole = " ".join(value for key, value in told.items() if isinstance(value, str))
-    if whole and runs:
+        given = runs.get("ordinary", run)
+        bad += [(kind, name, why) for kind, why in story_kept.faults(run, dict(table["kept"]), given)]
+    for text in told.get("said", ()) if runs else ():
         run = next(iter(runs.values()))
-        said = Said(whole, run, Phase("", run.start, run.end), runs, stemless, True)
+        said = Said(text, run, Phase("", run.start, run.end), runs, stemless, True)
         bad += [(kind, "all", why) for kind, why in story_words.faults(said)]
     return bad
 

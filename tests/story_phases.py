@@ -3,7 +3,7 @@ be told. Written from docs/phases.md alone; nothing of the app is imported."""
 
 import numpy as np
 from story_facts import FACTS, drifts
-from story_samples import comings_back, minus, sampled, spells
+from story_samples import Phase, comings_back, minus, sampled, spells
 
 LATER = "leans", "sinks", "swings", "nods", "rolls", "slides"
 """The kinds that divide what the others leave, with `rises`."""
@@ -180,7 +180,7 @@ def _swings(run, phase, piece):
     widened = max(piece[0], phase.t0 - PIECE), min(piece[1], phase.t1 + PIECE)
     if comings_back(run.between(*widened)[1])[1] < 2:
         yield "false swings", f"{_text(phase)}: it comes back less than twice"
-    if _drifts(run, phase, False, True):
+    if _surely(run, phase, piece, False):
         yield "false swings", f"{_text(phase)}: it sinks"
 
 
@@ -204,6 +204,15 @@ def _drifts(run, phase, nearer, sure):
     return False
 
 
+def _surely(run, phase, piece, nearer):
+    """The same of all of a phase and of its part that swings, without what was too short for a phase of its own."""
+    t = run.t[run.inside(phase.t0, phase.t1)]
+    if len(t) < 2 or not _drifts(run, phase, nearer, True):
+        return False
+    part = max(spells(t, run.swing(t, *piece) - 10), key=lambda one: one[1] - one[0], default=(phase.t0, phase.t1))
+    return part[1] > part[0] and _drifts(run, Phase(phase.kind, *part), nearer, True)
+
+
 def _sinks(run, phase, piece):
     yield from _large(run, phase, piece)
     if not _drifts(run, phase, False, False):
@@ -218,7 +227,7 @@ def _slides(run, phase, piece):
     if comings_back(run.between(phase.t0, phase.t1)[1])[0] >= 2:
         yield f"false {phase.kind}", f"{_text(phase)}: it swings"
     for nearer, kind in ((True, "rises"), (False, "sinks")):
-        if _drifts(run, phase, nearer, True):
+        if _surely(run, phase, piece, nearer):
             yield f"false {phase.kind}", f"{_text(phase)}: it {kind}"
 
 
