@@ -136,8 +136,11 @@ def cases():
 
 def counted(drawn):
     """Prints how many faults of each kind there are."""
-    kinds, first, refused, tables = collections.Counter(), {}, 0, 0
+    kinds, first, refused, tables, impossible = collections.Counter(), {}, 0, 0, 0
     for (name, query), told in zip(drawn, told_by(query for _, query in drawn), strict=True):
+        if "TopError" in told.get("error", ""):  # a body that cannot be put down so
+            impossible += 1
+            continue
         if "error" in told:
             bad = [("tell fails", "all", told["error"])]
         else:
@@ -147,7 +150,7 @@ def counted(drawn):
         kinds.update({kind for kind, _, _ in bad})
         for kind, table, text in bad:
             first.setdefault(kind, []).append(f"{name} on {table}: {text}\n      {query}")
-    print(f"{len(drawn)} starts: {tables} tables, {refused} refused")
+    print(f"{len(drawn)} starts: {tables} tables, {refused} refused, {impossible} starts impossible")
     for kind, count in kinds.most_common():
         print(f"{count:5d} starts  {kind}", *first[kind][:3], sep="\n    ")
     return kinds

@@ -9,6 +9,7 @@ LATER = "leans", "sinks", "swings", "nods", "rolls", "slides"
 """The kinds that divide what the others leave, with `rises`."""
 PIECE = 0.3  # s: a shorter piece belongs to its neighbour
 ORDER = (*FACTS, *LATER)
+SHARE = 0.1  # s: a shorter piece belongs to its neighbour whatever that is
 NEAR = 0.5  # degrees: by how much a limit may be missed in a test of what is left to rounding
 
 
@@ -68,8 +69,8 @@ def _nearer(run, t0, t1):
 
 
 def _told(run, kind):
-    """What is told must be so. A passage may have taken a piece beside it that is too short."""
-    more = run.slack + (PIECE if kind in ("over", "falls", "tips-back") else 0)
+    """What is told must be so; it may have taken a piece beside it that is too short."""
+    more = run.slack + (PIECE if kind in ("over", "falls", "tips-back") else SHARE)
     bad, may = [], [(s - more, e + more) for s, e in facts(run, kind, False)]
     for phase in run.phases:
         wrong = [] if phase.kind != kind else minus([(phase.t0, phase.t1)], may)
@@ -250,6 +251,3 @@ def _divided(run):
         later = one.kind in LATER and other.kind in LATER
         if later and not between and min(one.t1 - one.t0, other.t1 - other.t0) < PIECE - run.slack:
             yield "too short", f"{_text(one)} and {_text(other)}"
-
-
-SHARE = 0.1  # s: what is shorter may belong to the other side of a division

@@ -146,7 +146,7 @@ def spin_from_to(said, match):
 def left(said, match):
     falls = [one.t0 for one in said.run.phases if one.kind == "falls" and one.t0 >= said.phase.t0]
     then = said.spin(min(falls, default=said.phase.t1))
-    if np.abs(said.run.spin[0]) < 1.1 * then[0]:
+    if np.abs(said.run.spin[0]) < 1.02 * then[0]:
         return f"it had no more at the start: {np.abs(said.run.spin[0]):.3g}"
     return differs(match[1], then) if match[1] else None
 
@@ -285,7 +285,10 @@ def sways(said, match):
 
 @claims(r"Nothing (?:rubs|slides)")
 def rolls(said, match):
-    said = (said.whole and said.of("rough")) or said
+    if said.whole and said.others:  # of the rough table
+        said = said.of("rough")
+        if said is None:
+            return None
     inside = said.run.inside(said.phase.t0 + said.run.slack, said.phase.t1 - said.run.slack)
     return None if np.all(said.run.regime[inside] == "roll") else "it does not roll all the time"
 

@@ -187,7 +187,7 @@ def test_a_body_that_cannot_be_let_go_so_has_a_verdict_that_says_so(monkeypatch)
 
     monkeypatch.setattr("app.model.build.verdict.whole_on", never)
     found = verdict(PRESETS[0].shape)
-    assert found.code == "refused" and "could not be computed" in found.headline and "chatters" in found.why
+    assert found.code == "refused" and "could not be computed" in found.headline and "catches and slips" in found.why
 
 
 def test_the_words_beside_the_body_are_of_that_body():

@@ -14,7 +14,7 @@ from watching import LOST
 
 from app.page import first
 from app.state.keep import read
-from app.tabs.lab.room import FIRST, opened
+from app.state.opened import FIRST, opened
 
 MOST = 350_000  # bytes, compressed
 

@@ -11,7 +11,7 @@ from app.model.lab.keeps import KINDS, kinds
 from app.model.lab.lab import Lab, scene_of
 from app.model.lab.life import FAR, LIFE, SECONDS, lived
 from app.model.lab.run import TABLES, TOYS, motion_on, start_of, whole_on
-from app.model.story import marks, story
+from app.model.story import first_times, story
 from tippe_core import Contensou, State, slide, slide_many
 
 SHAPE = TOYS[TOY].shape
@@ -26,7 +26,7 @@ def lab():
 
 
 def codes(motion):
-    return {mark.code: mark.t for mark in marks(motion)}
+    return first_times(motion)
 
 
 # ---- the arrival ----
@@ -37,20 +37,21 @@ def test_the_arrival_turns_over_stands_and_falls_when_compliant_contacts_say(lab
     yield."""
     times = {event.code: event.t for event in lab.scene.events}
     assert times["over"] == pytest.approx(0.977, abs=0.01)
-    assert times["stands"] == pytest.approx(1.471, abs=0.01)
+    assert times["stands-on-stem"] == pytest.approx(1.471, abs=0.01)
     assert times["falls"] == pytest.approx(4.497, abs=0.01)
     assert times["stem"] == pytest.approx(1.371, abs=0.01)
     assert times["off"] == pytest.approx(5.57, abs=0.01)
     assert [stage.headline for stage in lab.scene.stages] == [
         "Rubbing tips it up.", "It turns over.", "It stands on its stem and spins on.", "It falls.",
-        "It comes off its stem.", "It tips back.", "It leans and goes round.", "The table grips it: it rolls.",
+        "It leans and goes round.", "It comes off its stem.", "It sinks.", "It tips back.",
+        "The table grips it: it rolls.",
     ]  # fmt: skip
     assert "at 4.5 s too little is left, and it falls" in lab.scene.stages[2].why
 
 
 def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
     """The numbers are float32, and another processor may differ in the last digit."""
-    kept, (_, fresh) = arrival.read(TOYS[TOY].top), lived(start_of(*ARRIVAL[1:]), lambda reached: None)
+    kept, (_, fresh) = arrival.read(TOYS[TOY].top), lived(start_of(*ARRIVAL[1:]), lambda: lambda reached: None)
     for name in ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "velocity", "heat"):
         assert getattr(kept, name) == pytest.approx(getattr(fresh, name), abs=2e-4), name
     until = 4.75 / SHAPE.scales.time  # then ever smaller bounces, whose number depends on rtol
@@ -145,7 +146,7 @@ def test_a_life_goes_on_until_it_rolls_and_ends_leaning_with_no_spin_about_the_v
 def test_its_rows_are_fewer_and_the_motion_is_that_of_all_of_them():
     """Between two rows the top moves so little that linear interpolation gives its true position."""
     start = start_of(*ARRIVAL[1:])
-    seconds, few = lived(start, lambda reached: None)
+    seconds, few = lived(start, lambda: lambda reached: None)
     times = np.linspace(0, seconds / start.scales.time, 8001)
     every = slide(start.top, start.state, start.friction, times, edge=start.edge)
     assert len(few.t) < 1600
@@ -183,7 +184,7 @@ def test_the_rough_table_grips_and_tells_what_that_takes():
     assert rough.curves[0, 4] == pytest.approx(ordinary.curves[0, 3] - rough.curves[0, 3], rel=1e-4)
     assert "gripped it: 1.8 of 205 mm" in story(rough).stages[0].why
     assert rough.trajectory.jellett[0] == pytest.approx(ordinary.trajectory.jellett[0], rel=1e-7)
-    assert story(rough).caption == "Nods between 1° and 6°"
+    assert story(rough).caption == "Between 1° and 6°"
     assert story(motion_on("ice", *ARRIVAL[1:])).caption == "Nods by a tenth of a degree"
 
 
@@ -192,13 +193,6 @@ def kept_at(scene, table, t):
     rows = scene.keeps[table]
     row = rows[np.flatnonzero(rows[:, 0] <= t)[-1], 1:].reshape(4, 3)
     return [[KINDS[int(kind)], first, last] for kind, first, last in row]
-
-
-def motion_spins(scene, table):
-    """The least and largest spin of a motion, rev/s."""
-    motion = scene.motions[table]
-    spins = motion.trajectory.omega[:, 2] * motion.start.scales.angular_velocity / (2 * np.pi)
-    return [spins.min(), spins.max()]
 
 
 def test_while_it_turns_over_only_jelletts_constant_is_nearly_kept():
@@ -219,6 +213,7 @@ def test_while_it_turns_over_only_jelletts_constant_is_nearly_kept():
     assert shares[0] > 0.75 >= shares[1] and set(jellett_is[lost:]) == {"lost"}
     for table in ("rough", "ice"):
         assert {row[4] for row in scene.keeps[table]} == {KINDS.index("kept")}
+    assert scene.turning == pytest.approx((1.37, 4.90, 4.81), abs=0.005)  # while its ball alone touches
 
 
 def test_how_far_a_quantity_is_kept_does_not_wait_for_its_end():
@@ -235,12 +230,12 @@ def test_what_each_keeps_is_what_its_trajectory_does():
     scene = scene_of("three", *ARRIVAL[1:])
     said = {table: kept_at(scene, table, np.inf) for table in scene.keeps}
     assert [kind for kind, *_ in said["ordinary"]] == ["lost", "lost", "zero", "zero"]
-    assert [kind for kind, *_ in said["rough"]] == ["kept", "kept", "kept", "swings"]
+    assert [kind for kind, *_ in said["rough"]] == ["gripped", "kept", "gripped", "nearly"]
     assert [kind for kind, *_ in said["ice"]] == ["kept", "kept", "swings", "kept"]
     moved = {table: motion.trajectory for table, motion in scene.motions.items()}
     assert np.ptp(moved["rough"].routh) < 1e-12 and np.ptp(moved["ice"].omega[:, 2]) == 0
     assert max(np.ptp(moved[table].jellett) for table in ("rough", "ice")) < 1e-12
     assert [round(last, 2) for *_, last in said["rough"][:3]] == [202.93, 4.90, 7.25]
-    assert said["rough"][3][1:] == pytest.approx(motion_spins(scene, "rough"), rel=1e-12)
+    assert [first for _, first, _ in said["rough"]] == pytest.approx([first for _, first, _ in said["ice"]], rel=1e-3)
     assert said["ordinary"][2][1:] == list(moved["ordinary"].routh[[0, -1]])
     assert scene.said[0] == "One start, three tables. Only rubbing turns it over."

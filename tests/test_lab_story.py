@@ -9,7 +9,7 @@ from itertools import cycle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.model.arrival import TILT, TOY
@@ -20,7 +20,7 @@ from app.model.lab.life import SECONDS
 from app.model.lab.run import TABLES, TOYS, motion_on
 from app.model.regimes import ENDS
 from app.model.runs import Stopped
-from app.model.story import marks, story
+from app.model.story import first_times, story
 from app.text import LANGUAGES, speaking
 from tippe_core import PRESETS, Contensou, State, TopError, slide
 
@@ -28,32 +28,10 @@ CONE = "Wooden cone"
 
 
 def codes(motion):
-    return {mark.code: mark.t for mark in marks(motion)}
+    return first_times(motion)
 
 
 # ---- the story ----
-
-
-@settings(max_examples=25)
-@given(st.sampled_from([TOY, "The paper's tippe top", "Top S", "Loaded sphere"]), st.floats(0, 50), st.floats(0, 175),
-       st.floats(0.05, 1))  # fmt: skip
-def test_what_is_marked_is_where_the_tilt_says(toy, spin, tilt, mu):
-    try:
-        motion = motion_on("ordinary", toy, spin, tilt, mu)
-    except (TopError, run.TooLong):  # TooLong: the page says that this run would take too long
-        return
-    t, theta, found = motion.seconds, motion.tilt, codes(motion)
-    step = np.abs(np.diff(theta)).max(initial=0.0) + 1e-6
-    for code, level in (("over", 90), ("stands", 170), ("inverted", 170), ("falls", 170), ("back", 90)):
-        if code in found and 0 < found[code]:
-            assert np.interp(found[code], t, theta) == pytest.approx(level, abs=step), code
-    if "over" not in found and "rolls" not in found and "lies" not in found and theta[0] < 90:
-        assert theta.max() < 90 + step
-    if "stands" in found:
-        after = (t > found["stands"]) & (t < found.get("falls", np.inf))
-        assert np.median(theta[after]) > 170 and (motion.carried[after] != "ball").mean() > 0.5
-    if "leans" in found:
-        assert np.ptp(theta[t > found["leans"]]) < 20 < theta[-1]
 
 
 STARTS = (-20.0, 60.0), (0.0, 6.0), (5.0, 120.0), (35.0, 6.0), (35.0, 0.0), (0.0, 180.0), (5.0, 60.0), (-20.0, 6.0)
@@ -81,20 +59,21 @@ def check(told, motion):
     words = " ".join([told.caption, *(word for stage in told.stages for word in stage[1:]),
                       *(word for event in told.events for word in event[2:])])  # fmt: skip
     assert not re.search(r"[{}]|\bnan\b|\binf\b|  ", words)
-    if motion.ended and len(motion.trajectory.t) < len(motion.t):
-        assert motion.frames[-1][-1] == ENDS and marks(motion)[-1].code in ("ends", "flat")
+    if motion.ended_at is not None:
+        assert (motion.frames[-1][-1] == ENDS and "ends" in codes(motion)) or "flat" in codes(motion)
 
 
 def test_an_ordinary_top_is_set_upright_and_a_slow_one_falls():
-    up = story(motion_on("ordinary", CONE, 20.0, 15.0, 0.3))
-    assert [event.code for event in up.events] == ["upright"] and up.stages[0].headline == "Rubbing sets it upright."
-    for tilt in (11.0, 15.0):  # it counts as standing when it is nearly as upright as it gets, not at once
-        motion = motion_on("ordinary", CONE, 20.0, tilt, 0.3)
-        ((since, code, _, _),) = story(motion).events
-        assert code == "upright" and np.interp(since, motion.seconds, motion.tilt) < motion.tilt[-1] + 5 < tilt
-        assert story(motion).stages[0].why.endswith(f"At {since:.1f} s it stands.") and since > 0.1
+    motion = motion_on("ordinary", CONE, 20.0, 15.0, 0.3)
+    up = story(motion)
+    assert [event.code for event in up.events] == ["stands-upright"]
+    assert up.stages[-1].headline == "It stands upright and spins." and "hold it there" in up.stages[-1].why
+    (since,) = codes(motion).values()
+    assert np.interp(since, motion.seconds, motion.tilt) == pytest.approx(5, abs=0.1)
     down = story(motion_on("ordinary", CONE, 0.5, 6.0, 0.3))
-    assert down.stages[0].headline == "It leans further and further."
+    assert down.stages[0].headline == "Without spin it falls over."
+    slow = story(motion_on("ordinary", CONE, 3.8, 6.0, 0.3)).stages[0]
+    assert slow.headline == "It falls." and "it would need about 13" in slow.why
     assert "its rim touches" in [event.word for event in down.events]
 
 
@@ -102,13 +81,15 @@ def test_a_run_that_nobody_waits_for_says_so(monkeypatch):
     """A cone whose rim chatters: ten thousand events in half a second of its motion."""
     monkeypatch.setattr(run, "MOST_LOOKS", 500)
     scene = scene_of("ordinary", CONE, 8.0, 6.0, 0.3)
-    assert scene.motions["ordinary"] is None and scene.stages[0].why.startswith("Its rim chatters on the table")
+    assert scene.motions["ordinary"] is None and scene.stages[0].why.startswith(
+        "Where it touches, it catches and slips so fast"
+    )
 
 
 def test_the_papers_top_hangs_on_no_stem_and_is_caught():
     """At 35 rev/s its stem touches, it falls back on its ball and is caught, rolling: as a direct run of it says."""
     motion = motion_on("ordinary", "The paper's tippe top", 35.0, 6.0, 0.3)
-    assert list(codes(motion)) == ["over", "stem", "off", "rolls"]
+    assert list(codes(motion)) == ["stem", "off", "rolls"]  # it is beyond 120 degrees for less than half a second
     preset = TOYS["The paper's tippe top"]
     shape, scales = preset.shape, preset.shape.scales
     state = State(np.radians(6), 0, 0, 2 * np.pi * 35 / scales.angular_velocity)
@@ -204,7 +185,8 @@ def test_the_strip_is_what_single_runs_do(toy):
     found = ends_of(toy, 6.0, 0.3)
     for i in (0, 50, 95):
         motion = motion_on("ordinary", toy, float(SPINS[i]), 6.0, 0.3)
-        expected = next((code for code in ("stands", "inverted") if code in codes(motion)), None)
+        kinds = (("stands", "stands-on-stem"), ("inverted", "stands-inverted"))
+        expected = next((code for code, kind in kinds if kind in codes(motion)), None)
         if expected is None:
             expected = "leans" if motion.tilt[-1] > 20 else "upright"
         assert found.codes[i] == expected, SPINS[i]

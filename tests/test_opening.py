@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from app.state.keep import Keep, read
 from app.state.names import LEVELS
-from app.tabs.lab.room import level, opened, shortest
+from app.state.opened import level, opened, shortest
 
 
 @pytest.mark.parametrize(("query", "tab"), {

@@ -56,7 +56,7 @@ def main() -> None:
     from app.model.lab.life import lived
     from app.model.lab.run import Patience, start_of
 
-    write(lived(start_of(TOY, SPIN, TILT, MU), Patience())[1], ends_of(TOY, TILT, MU).codes)
+    write(lived(start_of(TOY, SPIN, TILT, MU), Patience)[1], ends_of(TOY, TILT, MU).codes)
 
 
 if __name__ == "__main__":

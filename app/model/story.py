@@ -1,53 +1,34 @@
-"""What a motion on a table did, determined from the motion itself: marks in time, and the words for each stage.
+"""The narrator: what the page says of a motion on a table, made of the phases of that motion and of its numbers.
 
-Marks are found in the tilt, in what carried the top and in how its run ended, for any toy and start; their words are in
-text/<language>/lab.toml.
+Words are in text/<language>/lab.toml, under the kinds of phases and their variants. A variant that names a cause is
+chosen only where the run, or the stability of this top, shows that it is the cause.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from app.model.lab.run import TableMotion, Watched
+from app.model.phases import SIDE, SPINS, Phase
 from app.model.regimes import WOULD_LIFT
 from app.text import listed, say
+from tippe_core import thresholds
 from tippe_core.types import Array, Number
 
-ON_ITS_SIDE, STANDS = 90.0, 170.0  # degrees: past the first it has turned over, past the second it stands
-UPRIGHT, LEANS = 10.0, 20.0  # degrees: below the first it is upright, above the second it leans
-NODS = 10.0  # degrees: smaller oscillations are called nodding
-WHILE, PASSING = 0.2, 0.1  # s: what lasts is longer; an interruption of a stand may be this long
-HOP = 0.05  # s: a shorter flight is not seen
-AT_ONCE = 0.05  # s: what has begun by then was so from the beginning
-AT_REST = 1e-6  # MgR: with less kinetic energy it lies still
-LEAST_SPIN = 0.5  # rev/s: less is not called spinning
+TOLD = ("over", "stands-on-stem", "stands-upright", "stands-inverted", "falls", "tips-back", "lies")
+"""The phases whose beginnings are events."""
+STANDS = ("stands-on-stem", "stands-upright", "stands-inverted")
+LEANS, AT_ONCE = 1.0, 0.05  # s: so long a lean is an event too; what is so near is one event
 TENTH = (0.05, 0.15)  # degrees
-UNSTAGED = ("flies",)
-
-COME_FROM = (
-    "begins",
-    "high",
-    "over",
-    "topples",
-    "stem",
-    "falls",
-    "off",
-    "back",
-)  # after these another event would have followed, had the run gone on
-SPINS_ON = ("stands", "stays", "inverted", "leans")
-
-
-class Mark(NamedTuple):
-    """Something that happened: t in s, and a code of [events] in lab.toml."""
-
-    t: float
-    code: str
+SAME, STEADY = 0.05, 0.5  # the share that is not called a change; degrees within which a tilt is called steady
+SMALL, NEAR = 0.02, 10.0  # the share of its energy that is not worth a word; degrees
+AROUND = np.pi / 2  # rad: what goes round turns by more
 
 
 class Event(NamedTuple):
-    """A Mark in words, full and short."""
+    """Something that happened: t in s, its code in [events] of lab.toml, and its words, full and short."""
 
     t: float
     code: str
@@ -66,8 +47,8 @@ class Stage(NamedTuple):
 
 @dataclass(frozen=True)
 class Story:
-    """What a motion did. caption: a few words below it when it is shown beside others; "" on the ordinary table, where
-    that is the stage's short word."""
+    """What a motion did: a Stage for each of its phases. caption: a few words below it when it is shown beside others;
+    "" on the ordinary table, where that is the stage's short word."""
 
     events: tuple[Event, ...]
     stages: tuple[Stage, ...]
@@ -75,212 +56,289 @@ class Story:
 
 
 def story(motion: TableMotion) -> Story:
-    """The Story of a motion on the ordinary table, on the rough one or on ice, in the page's language."""
-    found = marks(motion)
-    words = listed("lab.events")
-    part = say(f"planes.parts.{motion.start.part}")
-    later = [mark for mark in found if mark.t > 0.0]
-    events = tuple(Event(t, code, *(word.format(part=part) for word in words[code])) for t, code in later)
-    if motion.table == "ordinary":
-        return Story(events, _Ordinary(motion, found).stages(), "")
-    return Story(events, (_quiet(motion),), _caption(motion))
-
-
-# ---- what happened ----
-
-
-def marks(motion: Watched) -> tuple[Mark, ...]:
-    """The marks of a motion, in order; at its very beginning only the one that it ends."""
-    t, ended = motion.seconds, _ended(motion)
-    found = [*_over(motion), *_touches(motion)]
-    if motion.table == "ordinary":
-        found += [*_stands(motion), *_settles(motion)]
-    if ended:
-        found = [mark for mark in found if mark.t <= ended.t] + [ended]
-    elif motion.ending and motion.rolls_since >= 0.0:  # while rolling, it passes the same tilts again and again
-        found = [mark for mark in found if mark.t < motion.rolls_since]
-        lies = motion.trajectory.ledger.kinetic[-1] < AT_REST
-        found.append(Mark(motion.rolls_since, "lies" if lies else "rolls"))
-    return tuple(sorted(mark for mark in found if mark is ended or t[0] < mark.t < t[-1]))
-
-
-def _over(motion: Watched) -> list[Mark]:
-    """It passes a right angle for the first time, or comes back for the last time."""
-    theta, times, a = motion.tilt, motion.crossings * motion.start.scales.time, motion.start.top.a
-    found: list[Mark] = []
-    if not a:  # a uniform ball has no heavy side
-        return found
-    if len(times) and motion.starts_below:
-        found.append(Mark(float(times[0]), "over" if a > 0 else "topples"))
-    if len(times) and theta[-1] < ON_ITS_SIDE - NODS and theta.max() > ON_ITS_SIDE + NODS:
-        found.append(Mark(float(times[-1]), "back"))
-    return found
-
-
-def _touches(motion: Watched) -> list[Mark]:
-    """The stem touches for the first time; the top leaves the table for longer than a hop; the stem lifts off for the
-    last time."""
-    scale, stretches = motion.start.scales.time, motion.ending.stretches if motion.ending else ()
-    touch = next((each.start for each in stretches if each.on in ("stem", "both")), None)
-    flight = next(
-        (each.start for each in stretches if each.on == "air" and (each.end - each.start) * scale > HOP), None
+    """The Story of a motion, in the page's language."""
+    words, part = listed("lab.events"), _part(motion)
+    events = tuple(
+        Event(t, code, *(word.format(part=part) for word in words[code])) for t, code in happened(motion) if t > 0.0
     )
-    found = [] if touch is None else [Mark(touch * scale, "stem")]
-    if flight is not None:
-        found.append(Mark(flight * scale, "flies"))
-    last = next((each for each in reversed(stretches) if each.on in ("stem", "both")), None)
-    if touch is not None and last and stretches[-1].on == "ball" and (last.end - touch) * scale > WHILE:
-        found.append(Mark(last.end * scale, "off"))
+    return Story(events, _Told(motion).stages(), "" if motion.table == "ordinary" else _caption(motion))
+
+
+def happened(motion: Watched) -> tuple[tuple[float, str], ...]:
+    """(t, code) of the events of a motion, in order: the beginnings of its phases, and those of its contacts."""
+    cuts = {*motion.cuts.values()}
+    goes = {} if motion.start.top.a > 0 else {"over": "goes"}  # without a heavy side below, nothing turns over
+    found = [(phase.start, goes.get(phase.kind, phase.kind)) for phase in motion.phases if phase.kind in TOLD]
+    found += [(phase.start, "leans") for phase in motion.phases
+              if phase.kind == "leans" and phase.end - phase.start > LEANS and phase.start not in cuts]  # fmt: skip
+    found += [(phase.start, "flies") for phase in motion.phases if phase.kind == "flies"][:1]
+    found += [(t, code) for code, t in motion.cuts.items()]
+    touch = motion.touches
+    if touch is not None and all(abs(t - touch) > AT_ONCE for t, code in found if code == "stands-on-stem"):
+        found.append((touch, "stem"))
+    if motion.ended_at is not None:
+        found.append((motion.ended_at, "flat" if motion.ended == "stands upright" else "ends"))
+    return tuple(sorted(found))
+
+
+def first_times(motion: Watched) -> dict[str, float]:
+    """{code: the time (s) at which it first happened}."""
+    found: dict[str, float] = {}
+    for t, code in happened(motion):
+        found.setdefault(code, t)
     return found
 
 
-def _stands(motion: Watched) -> list[Mark]:
-    """It begins to stand, that is, stays above STANDS for a while; and falls again."""
-    t, theta, found = motion.seconds, motion.tilt, list[Mark]()
-    if not motion.start.top.a:
-        return found
-    for start, end in lasting(t, theta, STANDS):
-        inside = (t >= start) & (t <= end)
-        stem = np.isin(motion.carried[inside], ("stem", "both")).mean() > 0.5
-        found.append(Mark(start, "stands" if stem else "inverted"))
-        if end < t[-1]:
-            found.append(Mark(end, "falls"))
-    return found
+def _part(motion: Watched) -> str:
+    return say(f"planes.parts.{motion.start.part}")
 
 
-def lasting(t: Array, theta: Array, level: float) -> list[tuple[float, float]]:
-    """The intervals in which theta is above a level: those longer than WHILE, ignoring gaps shorter than PASSING."""
-    above = np.concatenate([[False], theta > level, [False]])
-    starts, ends = np.flatnonzero(~above[:-1] & above[1:]), np.flatnonzero(above[:-1] & ~above[1:])
-    spells: list[tuple[float, float]] = []
-    for i, j in zip(starts, ends, strict=True):
-        start = float(t[0] if i == 0 else np.interp(level, theta[i - 1 : i + 1], t[i - 1 : i + 1]))
-        end = float(t[-1] if j == len(t) else np.interp(level, theta[j : j - 2 : -1], t[j : j - 2 : -1]))
-        if spells and start - spells[-1][1] < PASSING:
-            start = spells.pop()[0]
-        spells.append((start, end))
-    return [spell for spell in spells if spell[1] - spell[0] > WHILE]
+class _Told:
+    """The stages of a motion."""
 
-
-def _settles(motion: Watched) -> list[Mark]:
-    """It comes to rest at a tilt, or upright."""
-    t, theta = motion.seconds, motion.tilt
-    last = theta[-1]
-    away = np.flatnonzero(np.abs(theta - last) > (NODS / 2 if last < UPRIGHT else NODS))
-    if not len(away) or UPRIGHT < last < LEANS or last > STANDS or t[-1] - t[away[-1]] < 2 * WHILE:
-        return []
-    since = float(t[away[-1] + 1])
-    return [Mark(since, "upright" if last < UPRIGHT else "leans")] if since > AT_ONCE else []
-
-
-def _ended(motion: Watched) -> Mark | None:
-    """What ended it early."""
-    if not motion.ended or len(motion.trajectory.t) == len(motion.t):
-        return None
-    time = motion.trajectory.events[-1][0] * motion.start.scales.time
-    return Mark(time, "flat" if motion.ended == "stands upright" else "ends")
-
-
-# ---- the words ----
-
-
-class _Ordinary:
-    """The stages of a motion on the ordinary table."""
-
-    def __init__(self, motion: TableMotion, found: tuple[Mark, ...]) -> None:
-        self.motion, self.part = motion, say(f"planes.parts.{motion.start.part}")
-        rests = min((mark.t for mark in found if mark.code in ("leans", "upright")), default=np.inf)
-        staged = [mark for mark in found if mark.code not in UNSTAGED and (mark.code != "stem" or mark.t < rests)]
-        first = staged[0] if staged and staged[0].t <= 0.0 else Mark(0.0, self._first(staged))
-        all_marks = [first, *(mark for mark in staged if mark is not first)]
-        # a stage that is too short to be read is skipped, but not the last one
-        self.marks = [mark for mark, after in pairwise(all_marks) if after.t - mark.t > WHILE or mark is first]
-        self.marks += all_marks[-1:] if len(all_marks) > 1 else [first]
-
-    def _first(self, staged: list[Mark]) -> str:
-        """The code of the first stage."""
-        motion, theta, a = self.motion, self.motion.tilt, self.motion.start.top.a
-        codes = [mark.code for mark in staged]
-        if motion.carried[0] in ("stem", "both"):
-            return "stays" if theta[0] > STANDS else "begins"
-        if not motion.start.spin:
-            return "rest" if np.ptp(theta) < NODS / 10 else "still" if a > 0 else "drops"
-        if a < 0 and theta.max() - theta[0] > NODS:
-            return "sinks"
-        if "over" in codes:
-            return "rises"
-        if theta[0] > ON_ITS_SIDE and codes:
-            return "high"
-        if "upright" in codes or (a < 0 and theta[0] > UPRIGHT and theta[0] - theta[-1] > NODS / 2):
-            return "rights"
-        if "rolls" in codes:
-            return "slips"
-        if np.ptp(theta) < NODS:
-            return "nods" if a > 0 else "sleeps"
-        return "part" if a > 0 and theta.max() - theta[0] > NODS > theta[0] - theta.min() else "moves"
+    def __init__(self, motion: TableMotion) -> None:
+        self.motion, self.phases, self.a = motion, motion.phases, motion.start.top.a
+        self.kinds = [phase.kind for phase in self.phases]
+        self.quiet = motion.table != "ordinary"
+        self.curves = motion.curves.astype(float)
+        self.turns = motion.start.turns
 
     def stages(self) -> tuple[Stage, ...]:
-        after = [*self.marks[1:], None]
-        return tuple(self._stage(mark, then) for mark, then in zip(self.marks, after, strict=True))
+        return tuple(self._stage(i, phase) for i, phase in enumerate(self.phases))
 
-    def _stage(self, mark: Mark, then: Mark | None) -> Stage:
-        numbers = self._numbers(mark)
-        steady = mark.code == "rolls" and f"{numbers['low']:.1f}" == f"{numbers['high']:.1f}"
-        code = "circles" if steady else mark.code
-        why = say(f"lab.stages.{code}.why", **numbers)
-        if mark.code in ("stands", "inverted") and not any(each.code == "over" for each in self.marks):
-            why = ""  # nothing turned it over, so it was put down that way
-        if then:
-            why += " " + say(f"lab.next.{then.code}", **self._numbers(then))
-        elif mark.code in SPINS_ON and abs(numbers["last"]) >= LEAST_SPIN:
-            why += " " + say("lab.next.spins", **numbers)
-        elif mark.code in COME_FROM:
-            why += " " + say("lab.next.tilt", **numbers)
-        elif mark.code == "rolls":
-            why += " " + say("lab.next.forever")
-        if not then and self.motion.is_cut:
-            why += " " + say("lab.next.cut", **numbers)
-        short = say(f"lab.stages.{code}.short", **numbers)
-        return Stage(mark.t, say(f"lab.stages.{code}.headline", **numbers), why.strip(), short[:1].upper() + short[1:])
+    def _stage(self, i: int, phase: Phase) -> Stage:
+        numbers, code = self._numbers(i, phase), self._code(i, phase)
+        why = " ".join(filter(None, [*self._whys(i, phase, code, numbers), *self._afterwards(i, phase, numbers)]))
+        headline, short = (say(f"lab.stages.{code}.{name}", **numbers) for name in ("headline", "short"))
+        if self.quiet and self._stays_low and code in ("nods", "leans", "rests", "swings", "upright"):
+            headline, short = (say(f"lab.{self.motion.table}.{name}") for name in ("headline", "short"))
+        return Stage(phase.start, headline, why, short[:1].upper() + short[1:])
 
-    def _numbers(self, mark: Mark) -> dict[str, Number]:
-        """All numbers that the words of a mark may quote."""
+    # ---- which words ----
+
+    def _code(self, i: int, phase: Phase) -> str:
+        """The key of a phase's words: its kind, or a variant of it."""
+        kind, cuts = phase.kind, self.motion.cuts
+        if phase.start == cuts.get("rolls") and kind in ("leans", "swings", "nods", "rolls"):
+            return "grips"
+        if phase.start == cuts.get("off") and kind in ("leans", "sinks", "swings", "nods"):
+            return "off"
+        match kind:
+            case "rises":
+                follows = self.kinds[i + 1 : i + 2] == ["over"]
+                lifts = "rises" if follows else "lifts"
+                return "comes" if not self._rubs(phase) or not self.a else lifts if self.a > 0 else "rights"
+            case "over":
+                return "over" if self.a > 0 and self._rubs(phase) and self.kinds[:i].count("rises") else "goes"
+            case "stands-on-stem" | "stands-inverted":
+                return f"{'stem' if kind == 'stands-on-stem' else 'inverted'}-{self._stands(phase)}"
+            case "stands-upright":
+                return "upright"
+            case "falls":
+                return "drops" if self._most_spin(phase) < SPINS and self.a < 0 else "falls"
+            case "tips-back":
+                return "back" if self.a > 0 else "returns"
+            case "leans":
+                return "leans" if self._goes_round(phase) else "rests"
+            case "swings":
+                return "rocks" if self._most_spin(phase) < SPINS else "swings"
+            case "slides" if i == 0:
+                return "slips"
+        return kind
+
+    def _stands(self, phase: Phase) -> str:
+        return "spins" if abs(self._at(phase.start)[5]) >= SPINS else "balances"
+
+    @property
+    def _stays_low(self) -> bool:
+        return bool(self.motion.tilt.max() < SIDE)
+
+    def _rubs(self, phase: Phase) -> bool:
+        """Whether it slips in a phase, on a table with friction."""
+        here = self._here(phase)
+        return not self.quiet and bool((self.motion.trajectory.regime[here] != "roll").mean() > 0.5)
+
+    def _goes_round(self, phase: Phase) -> bool:
+        return bool(np.ptp(self.motion.trajectory.phi[self._here(phase)]) > AROUND)
+
+    # ---- the reasons ----
+
+    def _whys(self, i: int, phase: Phase, code: str, numbers: dict[str, Number]) -> list[str]:
+        """The sentences about a phase itself."""
+        said = []
+        if self.quiet and i == 0:
+            said.append(say(f"lab.{self.motion.table}.why"))
+        if code == "grips":
+            steady = numbers["most"] - numbers["least"] < STEADY
+            said.append(say(f"lab.stages.grips.{'steady' if steady else 'why'}", **numbers))
+        elif code in ("stem-spins", "inverted-spins", "stem-balances", "inverted-balances"):
+            said.append(self._why_it_stands(i, phase))
+        elif code == "upright" and not self.quiet:
+            said.append(self._why_upright(i, numbers))
+        elif code == "rocks":
+            never = self._stays_low and self.a > 0
+            said.append(say(f"lab.stages.rocks.{'why' if never else 'past'}", **numbers))
+        elif code == "falls":
+            said.append(self._why_it_falls(i, phase, numbers))
+        elif code == "back":
+            said.append(say(f"lab.stages.back.{'why' if self.motion.start.edge else 'ball'}", **numbers))
+        elif code == "leans" and not self.quiet:
+            said += [self._within(numbers), say("lab.stages.leans.energy", **numbers)]
+        elif code in ("leans", "rests", "upright"):
+            said.append(self._within(numbers))
+        else:
+            said.append(say(f"lab.stages.{code}.why", **numbers))
+        slower = numbers["last"] < (1 - SAME) * numbers["spin"] and round(numbers["last"]) < round(numbers["spin"])
+        if code in ("swings", "nods") and slower and not self.quiet:
+            said.append(say("lab.stages.swings.spin", **numbers))
+        return [*said, *self._of_table(i, numbers)]
+
+    @staticmethod
+    def _within(numbers: dict[str, Number]) -> str:
+        same = f"{numbers['least']:.0f}" == f"{numbers['most']:.0f}"
+        return say(f"lab.stages.rests.{'steady' if same else 'why'}", **numbers)
+
+    def _why_it_stands(self, i: int, phase: Phase) -> str:
+        before = self.kinds[:i]
+        if i == 0:
+            return say("lab.stages.stands.start")
+        rubbed = any(each.kind == "over" and self._rubs(each) for each in self.phases[:i])
+        return say("lab.stages.stands.turned") if rubbed and self.a > 0 and before.count("over") == 1 else ""
+
+    def _why_upright(self, i: int, numbers: dict[str, Number]) -> str:
+        """What holds it: its low weight, or its spin; or that nothing does for ever."""
+        said = [say("lab.stages.upright.rubbed")] if "rises" in self.kinds[:i] and self.a < 0 else []
+        change = thresholds(self.motion.start.top).upright
+        spin, needed = numbers["spin"], float(np.nan_to_num(change.spin)) * self.turns
+        stable = change.stable == "always" or (change.stable == "above") == (spin > needed)
+        stable = stable and change.stable != "never"
+        if self.a > 0:
+            low = "always" if change.stable == "always" else "low" if stable else "unstable"
+            said.append(say(f"lab.stages.upright.{low}", needed=needed, **numbers))
+        elif self.a < 0:
+            said.append(say(f"lab.stages.upright.{'spin' if stable else 'slow'}", needed=needed, **numbers))
+        return " ".join(said)
+
+    def _why_it_falls(self, i: int, phase: Phase, numbers: dict[str, Number]) -> str:
+        """Too little spin is the reason where it stood with more, or where it needs more to stand."""
+        stood = self.phases[i - 1] if i and self.kinds[i - 1] in STANDS else None
+        if stood and numbers["spin"] < (1 - SAME) * abs(self._at(stood.start)[5]) and numbers["spin"] >= SPINS:
+            return say("lab.stages.falls.few", **numbers)
+        if stood and numbers["spin"] < SPINS:
+            return say("lab.stages.falls.none", **numbers)
+        change = thresholds(self.motion.start.top).upright
+        needed = float(change.spin) * self.turns
+        if self.a < 0 and change.stable == "above" and numbers["spin"] < needed:
+            return say("lab.stages.falls.needs", needed=needed, **numbers)
+        return say("lab.stages.falls.why", **numbers)
+
+    def _of_table(self, i: int, numbers: dict[str, Number]) -> list[str]:
+        """What is said once, of the whole run on a table."""
         motion = self.motion
-        t, theta, curves = motion.seconds, motion.tilt, motion.curves
-        at = min(int(np.searchsorted(curves[:, 0], mark.t)), len(curves) - 1)
-        until = curves[: at + 1]
-        rolling = theta[t >= mark.t]
-        happens = say(f"planes.events.{motion.ended}", part=self.part) if motion.ended else ""
+        if i or motion.table != "rough":
+            return []
+        said = []
+        if motion.curves[0, 4] > TENTH[0]:
+            said.append(say("lab.rough.gripped", start=numbers["start"], lost=float(motion.curves[0, 4])))
+        if any(which == WOULD_LIFT for *_, which in motion.stretches):
+            said.append(say("lab.rough.lifts"))
+        return said
+
+    def _afterwards(self, i: int, phase: Phase, numbers: dict[str, Number]) -> list[str]:
+        """What comes after a phase: the next one, the end of the run, or that it goes on like this."""
+        motion = self.motion
+        if i + 1 < len(self.phases):
+            then = self.phases[i + 1]
+            code = self._next(then)
+            lost = abs(self._at(then.start)[5]) < (1 - SAME) * abs(self._at(phase.start)[5])
+            if code == "falls" and self._stands(phase) == "spins" and phase.kind in STANDS and lost and not self.quiet:
+                code = "tires"
+            return [say(f"lab.next.{code}", **numbers | {"time": then.start})]
+        if motion.ended_at is not None:
+            kind = "flat" if motion.ended == "stands upright" else self._stop
+            return [say(f"lab.stopped.{kind}", **numbers | {"time": motion.ended_at})]
+        if self._repeats(phase):
+            return [say("lab.next.forever")] if not self.quiet else [say(f"lab.{motion.table}.forever")]
+        said = [say("lab.next.cut", **numbers)] if motion.is_cut else []
+        if phase.kind in STANDS and numbers["last"] >= SPINS:
+            return [say("lab.next.spins", **numbers), *said]
+        return [*([say("lab.next.tilt", **numbers)] if phase.kind not in ("lies", "nods", "leans") else []), *said]
+
+    def _next(self, then: Phase) -> str:
+        cuts = self.motion.cuts
+        return next((code for code in ("rolls", "off") if then.start == cuts.get(code)), then.kind)
+
+    @property
+    def _stop(self) -> str:
+        if not self.quiet:
+            return "ends"
+        return "stem" if self.motion.ended == "stem touches" else "air"
+
+    def _repeats(self, phase: Phase) -> bool:
+        """Whether it has gone through all that a motion without losses repeats: it rolls or glides, and its tilt has
+        come back twice, or stays."""
+        here = self._here(phase)
+        if not self.quiet and not (self.motion.trajectory.regime[here] == "roll").all():
+            return False
+        if phase.kind == "lies" or (self.quiet and len(self.phases) > 1):
+            return False
+        turns = np.count_nonzero(np.diff(np.sign(self.motion.trajectory.omega[here, 0])))
+        return bool(turns >= 3 or np.ptp(self.motion.tilt[here]) < STEADY)
+
+    # ---- the numbers ----
+
+    def _most_spin(self, phase: Phase) -> float:
+        return float(np.abs(self.motion.trajectory.omega[self._here(phase), 2]).max()) * self.turns
+
+    def _here(self, phase: Phase) -> slice:
+        t = self.motion.seconds
+        first = min(int(np.searchsorted(t, phase.start - 1e-9)), len(t) - 1)
+        return slice(first, max(int(np.searchsorted(t, phase.end + 1e-9)), first + 1))
+
+    def _at(self, t: float) -> Array:
+        return self.curves[min(int(np.searchsorted(self.curves[:, 0], t)), len(self.curves) - 1)]
+
+    def _numbers(self, i: int, phase: Phase) -> dict[str, Number]:
+        """All numbers that the words of a phase may quote."""
+        motion, here = self.motion, self._here(phase)
+        tilt, first, last, start = motion.tilt[here], self._at(phase.start), self._at(phase.end), self.curves[0]
+        ahead = self._at(self.phases[min(i + 1, len(self.phases) - 1)].end) if phase.kind == "over" else last
+        upto = self.curves[(self.curves[:, 0] >= phase.start) & (self.curves[:, 0] <= ahead[0])]
         return {
-            "time": mark.t, "seconds": motion.start.seconds, "from": float(theta[0]), "end": float(theta[-1]),
-            "least": float(theta.min()), "most": float(theta.max()), "tilt": float(curves[at:, 1].mean()),
-            "low": float(rolling.min()) if mark.code == "rolls" else float(until[0, 2]),
-            "high": float(rolling.max()) if mark.code == "rolls" else float(curves[:, 2].max()),
-            "start": float(curves[0, 3] + curves[0, 4]), "left": float(curves[at, 3]),
-            "spin": abs(float(curves[at, 5])), "first": abs(float(curves[0, 5])), "last": abs(float(curves[-1, 5])),
-            "happens": happens, "part": self.part,
+            "time": phase.start, "seconds": float(motion.seconds[-1]), "long": phase.end - phase.start,
+            "from": float(tilt[0]), "end": float(tilt[-1]), "least": float(tilt.min()), "most": float(tilt.max()),
+            "spin": abs(float(first[5])), "last": abs(float(last[5])), "low": float(start[2]),
+            "high": float(upto[:, 2].max()) if len(upto) else float(first[2]),
+            "start": float(start[3] + start[4] * (motion.table == "rough")), "left": float(last[3]),
+            "happens": say(f"planes.events.{motion.ended}", part=_part(motion)) if motion.ended else "",
+            "part": _part(motion),
         }  # fmt: skip
 
 
-def _quiet(motion: TableMotion) -> Stage:
-    """The stage of a motion on the rough table or on ice."""
-    low, high, table = float(motion.tilt.min()), float(motion.tilt.max()), motion.table
-    name = "steady" if f"{low:.1f}" == f"{high:.1f}" else "why"
-    why = [say(f"lab.{table}.{name}", low=low, high=high)]
-    energy = float(motion.curves[0, 3] + motion.curves[0, 4])
-    if table == "rough" and motion.curves[0, 4] > 0.05:
-        why.append(say("lab.rough.gripped", start=energy, lost=float(motion.curves[0, 4])))
-    if table == "rough" and any(which == WOULD_LIFT for *_, which in motion.stretches):
-        why.append(say("lab.rough.lifts"))
-    if ended := _ended(motion):
-        kind = "stem" if motion.ended == "stem touches" else "air"
-        why.append(say(f"lab.stopped.{kind}", time=ended.t, part=say(f"planes.parts.{motion.start.part}")))
-    return Stage(0.0, say(f"lab.{table}.headline"), " ".join(why), say(f"lab.{table}.short"))
+def of_all(motions: Mapping[str, TableMotion]) -> tuple[str, str]:
+    """The headline and the explanation of one start on several tables, {table: its motion}."""
+    quiet = {name: motion for name, motion in motions.items() if name != "ordinary"}
+    over = "ordinary" in motions and "over" in first_times(motions["ordinary"])
+    turned = over and len(quiet) == 2 and all(motion.tilt.max() < SIDE for motion in quiet.values())
+    said = [say("lab.three.why")]
+    if "rough" in quiet:
+        first = quiet["rough"].curves[0]
+        lost, start = float(first[4]), float(first[3] + first[4])
+        said.append(say(f"lab.three.{'grip' if lost > SMALL * start else 'keep'}", lost=lost, start=start))
+    if len(quiet) == 2:
+        ends: dict[str, Number] = {f"{name}_{end}": float(getattr(motion.tilt, of)()) for name, motion in quiet.items()
+                for end, of in (("low", "min"), ("high", "max"))}  # fmt: skip
+        near = all(np.ptp(motion.tilt) < NEAR for motion in quiet.values())
+        said.append(say(f"lab.three.{'near' if near else 'far'}", **ends))
+    return say(f"lab.three.{'turned' if turned else 'headline'}"), " ".join(said)
 
 
 def _caption(motion: TableMotion) -> str:
     low, high = float(motion.tilt.min()), float(motion.tilt.max())
     by = high - low
+    if motion.ended_at is not None:
+        kind = "stem" if motion.ended == "stem touches" else "air"
+        return say(f"lab.caption.{kind}", time=motion.ended_at, part=_part(motion))
     if by < TENTH[0]:
         return say("lab.caption.stays", low=low)
     if by < TENTH[1]:

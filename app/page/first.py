@@ -26,8 +26,8 @@ from app.borrowed import address_of
 from app.bundle import Bundled, inlined
 from app.model.lab.lab import Lab
 from app.state import names
+from app.state import opened as room
 from app.state.keep import VERSION
-from app.tabs.lab import room
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 from app.widgets.theme import FAMILY

@@ -12,6 +12,7 @@ from app.model.planes.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
 from app.share.saved_runs import Shown
+from app.state import opened as room
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
 from app.state.start import OneStart
@@ -20,7 +21,6 @@ from app.tabs.build.rocking import RockingFields
 from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
-from app.tabs.lab import room
 from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps

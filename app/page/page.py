@@ -12,9 +12,9 @@ from app.page import first
 from app.page.design import Design
 from app.page.house import TABS, House
 from app.share.share import Share
+from app.state import opened as room
 from app.state.keep import read
 from app.state.names import LANGUAGE, LEVELS, VOTE
-from app.tabs.lab import room
 from app.tabs.learn.student import student_page
 from app.tabs.learn.worksheet import worksheet
 from app.text import say

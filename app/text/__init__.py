@@ -47,6 +47,8 @@ class _Numbers(string.Formatter):
 
     def format_field(self, value: object, form: str) -> str:
         said = super().format_field(value, form)
+        if not isinstance(value, str) and not said.strip("-0."):
+            said = said.removeprefix("-")  # no minus zero
         return said if isinstance(value, str) else said.translate(self._marks)
 
 

@@ -27,8 +27,8 @@ test("an empty curve has no value and no end", () => {
 });
 
 test("the stage at a time is the last that has begun", () => {
-  const stages = [[0, "rises"], [1, "over"], [1.5, "stands"]];
-  assert.deepEqual([0, 0.99, 1, 5].map((t) => latest(stages, t)[1]), ["rises", "rises", "over", "stands"]);
+  const stages = [[0, "rises"], [1, "over"], [1.5, "stands-on-stem"]];
+  assert.deepEqual([0, 0.99, 1, 5].map((t) => latest(stages, t)[1]), ["rises", "rises", "over", "stands-on-stem"]);
   assert.equal(latest([], 1), undefined);
 });
 
@@ -39,7 +39,7 @@ test("ticks are round numbers within the scale", () => {
   near(ticks(-17, 31, 5), [-10, 0, 10, 20, 30]);
 });
 
-const LIFE = [[0.98, "over"], [1.37, "stem"], [1.47, "stands"], [4.5, "falls"], [5.57, "off"], [8.59, "back"], [9.22, "leans"], [9.96, "rolls"]];
+const LIFE = [[0.98, "over"], [1.37, "stem"], [1.47, "stands-on-stem"], [4.5, "falls"], [5.57, "off"], [7.26, "tips-back"], [9.22, "leans"], [9.96, "rolls"]];
 
 test("it plays slowly until the top has turned over and stood for a moment, and always if nothing happens", () => {
   assert.deepEqual([0, 1.4, 2].map((t) => tempo(LIFE, t, 12)), [0.25, 0.25, 0.25]);
@@ -55,7 +55,7 @@ test("it plays slowly until the top has turned over and stood for a moment, and 
 
 test("it plays in real time or faster while nothing happens for long, and does not skip what happens", () => {
   assert.deepEqual([2.5, 4.4, 4.6, 5.6, 7].map((t) => tempo(LIFE, t, 12)), [1, 0.5, 0.5, 0.5, 1]);
-  const long = [[1.4, "over"], [2.2, "stands"], [25, "falls"]];
+  const long = [[1.4, "over"], [2.2, "stands-on-stem"], [25, "falls"]];
   assert.deepEqual([2.7, 3, 24.6, 24.8].map((t) => tempo(long, t, 27)), [0.25, 8, 8, 0.5]);
   assert.deepEqual([1, 3, 8, 9].map((t) => tempo([[8, "rolls"]], t, 10)), [0.25, 2, 0.5, 1]);
 });
@@ -109,7 +109,7 @@ const scene = (spin, mu, events, table = "ordinary") => ({ table, runs: {}, run:
   state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`], table: [table, `Table ${table}`, "Table"] }, runs: {} } });
 
 test("the earlier run is the one before the gesture, until it is dismissed or restored, also on another table", () => {
-  const before = new Before(BEFORE), stands = [[1, "over", "turns over", ""], [1.5, "stands", "stands on its stem", ""]];
+  const before = new Before(BEFORE), stands = [[1, "over", "turns over", ""], [1.5, "stands-on-stem", "stands on its stem", ""]];
   const slow = scene(20, 0.3, []), middle = scene(24, 0.3, []), fast = scene(28, 0.3, stands);
   assert.equal(before.follow(null, slow), null);
   before.touch("spin", slow, 0, 0);

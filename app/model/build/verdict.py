@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from app.model.arrival import MU, SPIN, TABLE, TILT
 from app.model.lab.run import TooLong, whole_on
-from app.model.story import marks
+from app.model.story import first_times
 from app.text import say, told
 from tippe_core import Shape, TopError
 from tippe_core.types import Number
@@ -27,13 +27,11 @@ def verdict(shape: Shape) -> Verdict:
     except (TopError, TooLong) as error:
         why = told(error) if isinstance(error, TopError) else say("lab.refused.too-long")
         return Verdict("refused", say("build.verdict.refused"), say("build.verdict.refused_why", why=why, **start))
-    found: dict[str, float] = {}
-    for mark in marks(motion):
-        found.setdefault(mark.code, mark.t)
+    found = first_times(motion)
     code = "over" if "over" in found else "not"
     part = say(f"planes.parts.{motion.start.part}")
     said = [say(f"build.verdict.{each}", time=found[each], part=part)
-            for each in ("over", "stands", "inverted", "falls") if each in found]  # fmt: skip
+            for each in ("over", "stands-on-stem", "stands-inverted", "falls") if each in found]  # fmt: skip
     if code == "not":
         low, high = float(motion.tilt.min()), float(motion.tilt.max())
         said = [say("build.verdict.stays", low=low, high=high, seconds=motion.start.seconds)]

@@ -4,10 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.lab.run import STEP, TableMotion
+from tippe_core import Constants
 from tippe_core.types import Array
 
-KINDS = ("kept", "swings", "nearly", "zero", "lost")
-"""How far a quantity is conserved; zero: its sign has changed."""
+KINDS = ("kept", "swings", "nearly", "zero", "lost", "gripped")
+"""How far a quantity is conserved; zero: its sign has changed; gripped: it changed when a table gripped the top, and is
+conserved since."""
 ROUNDING, TURNED = 1e-6, 0.05  # relative to the largest value so far
 # Less than a quarter has gone; the page says so. Rubbing while a toy turns over takes one or two hundredths of
 # Jellett's constant, but half of the energy, and turns Routh's around; later pivoting on the stem uses up Jellett's.
@@ -17,36 +19,62 @@ TREND = 0.2  # relative to the range of the values
 
 def keeps(motion: TableMotion) -> Array:
     """Rows (n, 13) over a motion: t (s), and for the energy (mm), Jellett's constant (divided by I1), Routh's and the
-    spin (rev/s) how far it is conserved from the start until then, an index of KINDS, and two numbers: the first and
-    the present one, or the least and the largest so far if it swings. On the rough table the start is after the
-    grip."""
-    moved, scales = motion.trajectory, motion.start.scales
-    energy = 1e3 * scales.R * (moved.ledger.kinetic + moved.com[:, 2])
-    turns = scales.angular_velocity / (2 * np.pi) * moved.omega[:, 2]
+    spin (rev/s) how far it is conserved from the given start, before any table grips it, until then, an index of KINDS,
+    and two numbers: the first and the present one, or the least and the largest so far if it swings."""
+    moved, scales, start = motion.trajectory, motion.start.scales, motion.start.state
+    length, turns = 1e3 * scales.R, motion.start.turns
+    energy, rest = length * (moved.ledger.kinetic + moved.com[:, 2]), length * (1 - abs(moved.top.a))
+    constants = Constants.from_state(moved.top, start.theta, start.theta_dot, start.omega2, start.omega3)
     # friction can only take energy, so whatever is gone is heat, however little
-    found = _told(energy, 0.0), _told(moved.jellett / motion.start.top.I1), _told(moved.routh), _told(turns)
-    rows = np.column_stack([motion.seconds, *found])
+    lost = _told(energy - rest, float(energy[0] - rest + length * motion.lost), 0.0, swings=False)
+    lost[:, 1:] += rest
+    found = [
+        _told(values, float(first))
+        for values, first in (
+            (moved.jellett / moved.top.I1, constants.K_J),
+            (moved.routh, constants.K_R),
+            (turns * moved.omega[:, 2], turns * start.omega3),
+        )
+    ]
+    rows = np.column_stack([motion.seconds, lost, *found])
     return rows[np.unique(np.append(np.arange(0, len(rows), STEP), len(rows) - 1))]
 
 
-def kinds(values: Array, nearly: float = NEARLY) -> NDArray[np.intp]:
+def while_it_turns(motion: TableMotion) -> tuple[float, float, float] | None:
+    """Until when (s) only the ball of a top that slips and turns over carries it, and Jellett's constant at the start
+    and then, if it is nearly conserved so long; else None."""
+    until = motion.touches
+    if motion.table != "ordinary" or until is None or not any(phase.kind == "over" for phase in motion.phases):
+        return None
+    values = motion.trajectory.jellett / motion.trajectory.top.I1
+    last = float(np.interp(until, motion.seconds, values))
+    return (until, float(values[0]), last) if abs(last - values[0]) < NEARLY * abs(values[0]) else None
+
+
+def kinds(values: Array, nearly: float = NEARLY, *, swings: bool = True) -> NDArray[np.intp]:
     """How far a quantity is conserved from its first value to each: indices of KINDS. What swings about a mean over the
-    whole motion does so from its start. nearly: the relative change below which it is nearly conserved."""
+    whole motion does so from its start. nearly: the relative change below which it is nearly conserved; swings: whether
+    it can."""
     most, spread = np.maximum.accumulate(np.abs(values)), _most(values) - _least(values)
     found = np.where(np.abs(values - values[0]) < nearly * most, KINDS.index("nearly"), KINDS.index("lost"))
     found[(np.abs(values) > TURNED * most) & (values * values[0] < 0)] = KINDS.index("zero")
     early, late = (float(half.mean()) if len(half) else np.inf for half in np.array_split(values, 2))
-    if abs(late - early) < TREND * spread[-1] and spread[-1] < nearly * most[-1]:
+    if swings and abs(late - early) < TREND * spread[-1] and spread[-1] < nearly * most[-1]:
         found[:] = KINDS.index("swings")
     found[spread <= ROUNDING * most] = KINDS.index("kept")
     return found
 
 
-def _told(values: Array, nearly: float = NEARLY) -> Array:
-    found = kinds(values, nearly)
-    swings = found == KINDS.index("swings")
-    first, last = np.where(swings, _least(values), values[0]), np.where(swings, _most(values), values)
-    return np.column_stack([found, first, last])
+def _told(values: Array, first: float, nearly: float = NEARLY, *, swings: bool = True) -> Array:
+    """Columns: the kind and two numbers, for a quantity that was `first` at the given start."""
+    jumped = abs(values[0] - first) > ROUNDING * max(abs(values[0]), abs(first))
+    all_values = np.concatenate([[first], values]) if jumped else values
+    found = kinds(all_values, nearly, swings=swings and not jumped)[-len(values) :]
+    if jumped and set(kinds(values, nearly, swings=False)) == {KINDS.index("kept")}:
+        found[:] = KINDS.index("gripped")
+    swing = found == KINDS.index("swings")
+    start = np.where(swing, _least(values), all_values[0])
+    return np.column_stack([found, start, np.where(swing, _most(values), values)])
 
 
 def _least(values: Array) -> Array:

@@ -15,7 +15,7 @@ import param
 from app.model.arrival import TABLE, TILT
 from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
 from app.model.lab.ends import Ends, Key, ends_once, known_ends
-from app.model.lab.keeps import keeps
+from app.model.lab.keeps import keeps, while_it_turns
 from app.model.lab.run import (
     PATCH,
     SHIPS,
@@ -29,7 +29,7 @@ from app.model.lab.run import (
 )
 from app.model.runs import LATER, Result, Run, Runs, Stopped
 from app.model.start import Start, arrives, of_toy
-from app.model.story import Event, Stage, Story, story
+from app.model.story import Event, Stage, Story, of_all, story
 from app.text import say, told
 from app.together import set_together
 from tippe_core import State, TopError
@@ -49,7 +49,8 @@ class LabScene:
 
     motions: {table: TableMotion or None}; None if the table is not watched, or if there is no motion: then refused has
     a sentence that says why. stories: {table: Story} of these motions. said: the headline and the explanation for all
-    three together. keeps: {table: its keeps()} for all three. messages: {input: a sentence} for each input that was
+    three together. keeps: {table: its keeps()} for all three; turning: while_it_turns() of the ordinary
+    one. messages: {input: a sentence} for each input that was
     refused; the rest is then the last valid scene. profile: (k, 2) in R; a in R; seconds for one unit of time, for the
     picture in 3-D; part: "stem" or "rim". whole: whether the motions are computed to their end.
     """
@@ -66,6 +67,7 @@ class LabScene:
     refused: MappingProxyType[str, str]
     said: tuple[str, str]
     keeps: MappingProxyType[str, Array]
+    turning: tuple[float, float, float] | None
     profile: Array
     a: float
     seconds: float
@@ -117,12 +119,12 @@ def scene_of(
             refused[each] = say("lab.refused.too-long")
     found = {name: motion for name, motion in motions.items() if motion is not None}
     start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
-    turned = "ordinary" in found and any(event.code == "over" for event in stories["ordinary"].events)
     return LabScene(
         table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, given=given, patch=patch, motions=MappingProxyType(motions),
         stories=MappingProxyType(stories), refused=MappingProxyType(refused),
-        said=(say(f"lab.three.{'turned' if turned else 'headline'}"), say("lab.three.why")),
+        said=of_all(found),
         keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
+        turning=while_it_turns(found["ordinary"]) if "ordinary" in found else None,
         profile=start.profile, a=start.top.a, seconds=start.scales.time, part=start.part,
         whole=whole or (table != "three" and all(motion.whole for motion in found.values())),
     )  # fmt: skip

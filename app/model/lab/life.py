@@ -31,14 +31,14 @@ def within(start: T) -> T:
     return start
 
 
-def lived(start: Setup, look: Callable[[float], object]) -> tuple[float, Trajectory]:
-    """How long a start is to be shown, s, and its Trajectory until then, thinned. look: the progress of slide()."""
+def lived(start: Setup, look: Callable[[], Callable[[float], object]]) -> tuple[float, Trajectory]:
+    """How long a start is to be shown, s, and its Trajectory until then, thinned. look(): the progress of a slide()."""
     time, seconds, most = start.scales.time, 2 * SECONDS, LIFE
     while True:
         wanted, seconds = seconds, within(replace(start, seconds=seconds)).seconds
         most = seconds if seconds < wanted else most
         times = replace(start, seconds=seconds).times
-        moved = slid(start, start.state, times, look)
+        moved = slid(start, start.state, times, look())
         end = _end(moved, time, ended=len(moved.t) < len(times))
         if end <= seconds or seconds >= most:
             break

@@ -4,8 +4,9 @@ Ordinary: it slips, with the friction of a real contact. Rough: it can only roll
 friction at all.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
 from typing import ClassVar, TypeAlias
 
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from app.model import arrival
 from app.model.bodies import body
 from app.model.lab.life import SECONDS, lived, thinned, within
+from app.model.phases import Phase, Samples, phases
 from app.model.planes.picture import Motion, Setup, by_hand
 from app.model.planes.run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
@@ -28,6 +30,8 @@ TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for 
 PATCH = 0.5  # mm: the default radius of the contact patch
 MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
+STEM = "stem", "both"
+WHILE = 0.2  # s
 NEARLY = 1e-5  # relative: the precision of a time stored as float32
 SHIPS = *arrival.ARRIVAL, None, PATCH
 
@@ -112,6 +116,49 @@ class Watched(Motion):
             return 0.0
         return float(self.seconds[slips[-1] + 1]) if slips[-1] + 1 < len(self.seconds) else np.nan
 
+    @property
+    def ended_at(self) -> float | None:
+        """When (s) it ended early; None if it did not."""
+        if not self.ended or len(self.trajectory.t) == len(self.t):
+            return None
+        return self.trajectory.events[-1][0] * self.start.scales.time
+
+    @property
+    def touches(self) -> float | None:
+        """When (s) its stem first touches after the start; None if it does not."""
+        stretches = self.ending.stretches[1:] if self.ending else ()
+        touch = next((each.start for each in stretches if each.on in STEM), None)
+        return None if touch is None else touch * self.start.scales.time
+
+    @cached_property
+    def cuts(self) -> Mapping[str, float]:
+        """{code: the time (s)} of what divides it: "off", its stem leaves the table for good, after it was on it for a
+        while; "rolls", it begins to roll for good."""
+        found, unit, stretches = (
+            dict[str, float](),
+            self.start.scales.time,
+            self.ending.stretches if self.ending else (),
+        )
+        on = [each for each in stretches if each.on in STEM]
+        if on and stretches[-1].on == "ball" and (on[-1].end - on[0].start) * unit > WHILE:
+            found["off"] = on[-1].end * unit
+        if 0.0 < self.rolls_since < self.seconds[-1]:
+            found["rolls"] = self.rolls_since
+        return MappingProxyType(found)
+
+    @cached_property
+    def phases(self) -> tuple[Phase, ...]:
+        """Its phases."""
+        moved, unit = self.trajectory, self.start.scales.time
+        since, on = zip(*moved.supports, strict=True)
+        until = *since[1:], moved.t[-1]
+        flights = tuple((unit * a, unit * b) for a, b, what in zip(since, until, on, strict=True) if what == "none")
+        return phases(Samples(
+            self.seconds, self.tilt, self.carried, moved.regime == "roll", moved.omega[:, 2] * self.start.turns,
+            moved.ledger.kinetic, flights, moved.top.a, tuple(self.cuts.values()),
+            0.0 if self.table == "ice" else float(np.nan_to_num(self.rolls_since, nan=np.inf)),
+        ))  # fmt: skip
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TableMotion(Watched):
@@ -177,7 +224,7 @@ def whole_on(
         seconds = whole_on("ordinary", toy, spin, tilt, mu, given, patch).start.seconds
         return on(replace(start, seconds=seconds), table)
     try:
-        seconds, kept = lived(start, Patience())
+        seconds, kept = lived(start, Patience)
     except TopError as error:
         raise for_reader(error, start.scales) from None
     return moved(replace(start, seconds=seconds), table, kept, 0.0, whole=True)

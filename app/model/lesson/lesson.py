@@ -11,19 +11,19 @@ from app.model.lesson.rolling import jump, slip, ties, turning
 from app.model.lesson.runs import named
 from app.model.lesson.six import SIX, YOURS, asked
 from app.model.scene import Scene, solve
-from app.model.story import ON_ITS_SIDE
+from app.model.story import first_times
 
 
 def creep(scene: Scene) -> Answer:
     """Which toy turns over: the one with a point contact, or the one with a small contact patch."""
     point, patch = named("point"), named("patch")
-    over = {name: motion.tilt.max() > ON_ITS_SIDE for name, motion in (("point", point), ("patch", patch))}
-    turned = [name for name, did in over.items() if did]
+    over = {name: first_times(motion).get("over", np.nan) for name, motion in (("point", point), ("patch", patch))}
+    turned = [name for name, time in over.items() if not np.isnan(time)]
     rolling = point.tilt[point.seconds >= point.rolls_since]
     numbers = {
         "caught": point.rolls_since, "low": rolling.min() if len(rolling) else np.nan,
         "high": rolling.max() if len(rolling) else np.nan,
-        "over": patch.seconds[int(np.argmax(patch.tilt > ON_ITS_SIDE))],
+        "over": over["patch"],
     }  # fmt: skip
     return Answer("both" if len(turned) == 2 else turned[0] if turned else "neither", numbers)
 

@@ -10,21 +10,13 @@ from app.model.lab.run import TableMotion
 from app.model.lesson.parts import Answer, Choice, Curve, Picture, Point, Step
 from app.model.lesson.runs import on_ball, on_table, own, proof, slipped
 from app.model.scene import Scene
-from app.model.story import ON_ITS_SIDE, marks
+from app.model.story import first_times
 from tippe_core.types import Array
 
 UNSURE = "unsure"
 SPINS = 0.5  # rev/s: a smaller spin counts as none
 LIKE = 0.5  # two losses are alike if the smaller is at least this share of the larger
 MORE = 1.02  # a sum of energies that grew by more would be wrong
-
-
-def times(motion: TableMotion) -> dict[str, float]:
-    """{code: the time (s) at which it first happened}"""
-    found: dict[str, float] = {}
-    for mark in marks(motion):
-        found.setdefault(mark.code, mark.t)
-    return found
 
 
 def at(motion: TableMotion, t: float) -> Array:
@@ -36,9 +28,10 @@ def at(motion: TableMotion, t: float) -> Array:
 def flips(scene: Scene) -> Answer:
     """What the toy does until the end."""
     motion = on_table("ordinary")
-    when = times(motion)
-    truth = "over" if {"over", "stands"} <= when.keys() else "falls" if "topples" in when else "upright"
-    return Answer(truth, {code: when.get(code, np.nan) for code in ("over", "stands", "falls", "rolls")})
+    when = first_times(motion)
+    truth = "over" if {"over", "stands-on-stem"} <= when.keys() else "falls" if "falls" in when else "upright"
+    codes = {"over": "over", "stands": "stands-on-stem", "falls": "falls", "rolls": "rolls"}
+    return Answer(truth, {name: when.get(code, np.nan) for name, code in codes.items()})
 
 
 def way(scene: Scene) -> Answer:
@@ -67,7 +60,7 @@ def height(scene: Scene) -> Answer:
 def tables(scene: Scene) -> Answer:
     """Whether it still turns over on the rough table or on ice."""
     found = {table: on_table(table) for table in ("rough", "ice")}
-    turned = [table for table, motion in found.items() if motion.tilt.max() > ON_ITS_SIDE]
+    turned = [table for table, motion in found.items() if "over" in first_times(motion)]
     numbers = {f"{table}_{name}": float(getattr(motion.tilt, name)()) for table, motion in found.items()
                for name in ("min", "max")}  # fmt: skip
     return Answer("both" if len(turned) == 2 else turned[0] if turned else "neither", numbers)
@@ -114,7 +107,7 @@ def contradiction(scene: Scene) -> Answer:
 def yours(scene: Scene) -> Answer:
     """Whether the page's own top turns over while it is watched."""
     motion = own(scene)
-    over, rows = times(motion).get("over", np.nan), motion.curves
+    over, rows = first_times(motion).get("over", np.nan), motion.curves
     tilt = rows[rows[:, 0] <= YOURS.end, 1]
     numbers = {"over": over, "low": tilt.min(), "high": tilt.max(), "end": tilt[-1],
                "seconds": min(YOURS.end, rows[-1, 0])}  # fmt: skip

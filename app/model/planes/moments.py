@@ -8,11 +8,11 @@ import numpy as np
 from app.model.lab.run import TABLES, Watched
 from app.model.planes.picture import SHORT, Motion, Settings
 from app.model.regimes import NAMES
-from app.model.story import marks
+from app.model.story import happened
 from app.text import listed, say
 
-TOLD = ("over", "topples", "stands", "inverted", "falls", "back", "leans", "upright", "lies", "rolls")
-"""Marks that are not events of a contact, which are listed anyway."""
+OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")
+"""Events of the story that are listed as those of its contacts."""
 MOST = 16
 ON = {"both": "both", "stem": "stem", "none": "air"}
 TABLE = {plane: table for table, plane in TABLES.items()}
@@ -33,7 +33,7 @@ def moments(motion: Motion | None, settings: Settings, plane: str) -> tuple[Mome
         return ()
     watched = Watched(**vars(motion), start=settings, table=TABLE[plane])
     unit, words, part = settings.scales.time, listed("lab.events"), say(f"planes.parts.{settings.part}")
-    found = [(mark.t, words[mark.code][0].format(part=part)) for mark in marks(watched) if mark.code in TOLD]
+    found = [(t, words[code][0].format(part=part)) for t, code in happened(watched) if code not in OF_CONTACTS]
     found += _turns(motion, unit) + _touches(motion, unit, part)
     told = [(0.0, say("planes.moments.begins")), *sorted(each for each in found if each[0] > 0.0)]
     if len(told) > MOST:

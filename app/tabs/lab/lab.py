@@ -303,10 +303,18 @@ class LabTab:
         return spelled(f"{said['name']} {number}{gap}{said['unit']}")
 
     @staticmethod
+    def _jellett(scene):
+        """How well its constant is kept while the top turns over, in words; "" if it does not."""
+        if not scene.turning:
+            return ""
+        time, first, last = scene.turning
+        return spelled(say("lab.kept.jellett", time=time, first=first, last=last))
+
+    @staticmethod
     def _run(scene, table):
         """The run on a table in words; None if the table is not watched."""
         if table in scene.refused:
-            return {"events": [], "stages": [], "caption": "", "why": spelled(scene.refused[table])}
+            return {"events": [], "stages": [], "caption": "", "why": spelled(scene.refused[table]), "jellett": ""}
         if table not in scene.stories:
             return None
         story = scene.stories[table]
@@ -315,4 +323,5 @@ class LabTab:
             "stages": [[t, *map(spelled, said)] for t, *said in story.stages],
             "caption": spelled(story.caption),
             "why": "",
+            "jellett": LabTab._jellett(scene) if table == "ordinary" else "",
         }

@@ -132,7 +132,7 @@ def _top(name):
 
 def _events(motion):
     found = story(motion).events if motion else ()
-    stands = any(code == "stands" for _, code, *_ in found)
+    stands = any(code == "stands-on-stem" for _, code, *_ in found)
     return [[t, code, spelled(word), spelled(short)] for t, code, word, short in found if code != "stem" or not stands]
 
 

@@ -3,7 +3,7 @@ import { say, written } from "./parts.js";
 
 const SIZE = "dim:"; // a dimension of the body
 const GESTURE = 1500; // ms: changes of the same input that follow each other faster count as one
-const TELLING = ["stands", "inverted", "upright", "leans", "topples", "over", "rolls", "lies"]; // the first of these tells how a run went
+const TELLING = ["stands-on-stem", "stands-inverted", "stands-upright", "over", "falls", "leans", "rolls", "lies"]; // the first of these tells how a run went
 
 export class Before {
   /** @param {Record<string, any>} texts */

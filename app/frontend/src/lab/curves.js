@@ -87,7 +87,7 @@ const LOOK = 0.6, SOON = 0.3, FIRST = 2, QUIET = 1.2, LONG = 3; // s
 /** @param {any[][]} events @param {number} t in s @param {number} end */
 export function tempo(events, t, end) {
   if (!events.length) return SLOW;
-  const over = events.filter(([, code]) => code === "over" || code === "stands").slice(0, 2);
+  const over = events.filter(([, code]) => code === "over" || code === "stands-on-stem").slice(0, 2);
   const since = over.length ? over[over.length - 1][0] + LOOK : FIRST;
   if (t <= since) return SLOW;
   const before = events.filter(([at]) => at <= t).at(-1), next = events.find(([at]) => at > t);

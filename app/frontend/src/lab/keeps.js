@@ -4,7 +4,7 @@ import { float32 } from "../data.js";
 import { TABLES } from "./curves.js";
 import { drawn, part, say, written } from "./parts.js";
 
-const KINDS = ["kept", "swings", "nearly", "zero", "lost"]; // as in app/model/lab/keeps.py
+const KINDS = ["kept", "swings", "nearly", "zero", "lost", "gripped"]; // as in app/model/lab/keeps.py
 const OWN = { energy: { lost: "heat" }, spin: { zero: "reversed" } }; // a quantity's own word
 const DIGITS = { energy: 0, jellett: 2, routh: 2, spin: 1 }, MOST_DIGITS = 5;
 const WIDTH = 1 + 3 * Object.keys(DIGITS).length;
@@ -14,7 +14,7 @@ const RING = { cx: 7, cy: 7, r: 5.25, fill: "none", stroke: "currentColor", "str
 const full = () => [drawn("circle", { cx: 7, cy: 7, r: 6, fill: "currentColor" })];
 const half = () => [drawn("circle", RING), drawn("path", { d: "M7 1a6 6 0 0 1 0 12z", fill: "currentColor" })];
 const empty = () => [drawn("circle", RING)];
-const MARKS = { kept: full, swings: half, nearly: half, zero: empty, lost: empty };
+const MARKS = { kept: full, swings: half, nearly: half, zero: empty, lost: empty, gripped: empty };
 
 // Each quantity at a time: how far it is conserved, and that in words and in numbers.
 /** @param {Float32Array} rows @param {number} t @param {Record<string, any>} texts @returns {[kind: string, word: string, numbers: string][]} */
@@ -54,6 +54,7 @@ export class Keeps {
       const cells = texts.kept.map(() => ({ mark: drawn("svg", { viewBox: "0 0 14 14", width: 14, height: 14, "aria-hidden": "true" }), word: part("span"), numbers: part("span", { class: "small" }), kind: "" }));
       const columns = rows.length ? cells.map(({ mark, word, numbers }) => part("td", {}, part("span", { class: "kept" }, mark, word), numbers))
         : [part("td", { colspan: cells.length }, scene.runs[name]?.why ?? "")];
+      if (rows.length && scene.runs[name]?.jellett) columns[1].append(part("p", { class: "small" }, scene.runs[name].jellett));
       return { rows, cells, row: part("tr", {}, part("th", { scope: "row" }, texts.tables[name]), ...columns) };
     }) : [];
     this.body.replaceChildren(...this.tables.map(({ row }) => row));

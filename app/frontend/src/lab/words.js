@@ -2,7 +2,6 @@
 import { latest } from "./curves.js";
 import { part, say } from "./parts.js";
 
-const LIFTED = ["over", "stands", "inverted"]; // events of a run that friction has turned over
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
 
 export class Words {
@@ -25,7 +24,7 @@ export class Words {
     const { texts } = this;
     this.scene = scene;
     this.next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[NEXT[scene.table]]} →`));
-    const isLifted = scene.table === "three" || (scene.run?.events ?? []).some(([, code]) => LIFTED.includes(code));
+    const isLifted = scene.table === "three" || (scene.run?.events ?? []).some(([, code]) => code === "over");
     this.lesson.textContent = (isLifted && texts.whys[scene.table]) || "";
     this.said = undefined;
   }

@@ -1,0 +1,19 @@
+"""What the page says of a link."""
+
+from app.model.lab.lab import scene_of
+from app.model.telling import told
+from app.state.keep import explorer_of, read
+from app.state.opened import level
+from app.text import speaking
+
+
+def tell(query="", language="en"):
+    """What the page says of the start that a link opens, on each of the three tables, as data: see
+    app.model.telling.told. query: as in an address; language: one of app.text.LANGUAGES. Raises TopError for a start
+    that is impossible on all of them."""
+    texts, _ = read(query)
+    with speaking(language):
+        start, _ = explorer_of(texts, level(texts, query) == "explore")
+        given = None if start.at_rest else start.let_go
+        scene = scene_of("three", start.body, start.spin, start.tilt, start.mu, given, start.patch, whole=True)
+        return told(scene)
