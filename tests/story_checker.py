@@ -98,12 +98,17 @@ def faults(told, stemless=False):
             said = Said(text, run, phase, runs, stemless, whole)
             bad += [(kind, name, why) for kind, why in story_words.faults(said)]
         given = runs.get("ordinary", run)
-        bad += [(kind, name, why) for kind, why in story_kept.faults(run, dict(table["kept"]), given)]
+        bad += [(kind, name, why) for kind, why in story_kept.faults(run, rows(table["kept"]), given)]
     for text in told.get("said", ()) if runs else ():
         run = next(iter(runs.values()))
         said = Said(text, run, Phase("", run.start, run.end), runs, stemless, True)
         bad += [(kind, "all", why) for kind, why in story_words.faults(said)]
     return bad
+
+
+def rows(kept):
+    """{quantity: text} of the table of what is kept."""
+    return {name: row["said"] if isinstance(row, dict) else row for name, row in dict(kept).items()}
 
 
 def texts(run, table):
