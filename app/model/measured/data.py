@@ -1,24 +1,29 @@
 """Measured data in s, rad and m: the columns of a Table with the quantities and units that the visitor confirmed."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
 
-from app.model.measured.table import UNITS, Column, MeasuredError, Table
+from app.model.measured.cells import MeasuredError
+from app.model.measured.names import UNITS, is_from_x
+from app.model.measured.table import Column, Table
 from tippe_core.types import Array
 
-TOGETHER = (("x", "y"), ("tip_x", "tip_y"))
-HANDED = {"spin", "precession", "azimuth", "x", "tip_x"}
+TRACKS = (("x", "y"), ("tip_x", "tip_y"))
+TOGETHER = (*TRACKS, ("axis_x", "axis_y"), ("axis_side", "axis_up"))
+HANDED = {"spin", "precession", "azimuth", "x", "tip_x", "axis_x"}
 """Quantities that tell a motion from its mirror image. A film from the side does not: it may be from either side."""
 CAN_BE = {
     "tilt": (-0.5, np.pi + 0.5),
     "spin": (-4000.0, 4000.0),
     "precession": (-4000.0, 4000.0),
     "azimuth": (-1e5, 1e5),
+    "line": (-4.0, 4.0),
 }
 FAR = -5.0, 5.0  # m
+SINCE_1970 = ("us", "ns")  # units of times that a phone counts from then: here from the first
 """{quantity: what a film of a top can show of it}, in rad and rad/s; FAR for all lengths. Beyond, the unit is wrong."""
 
 
@@ -82,6 +87,7 @@ def settled(table: Table, rate: float = 0.0) -> Data:
         raise MeasuredError("rate", rate=rate)
     known = np.isfinite(time.values)
     t = time.values[known] * (1 / rate if time.unit == "frames" else UNITS["time"][time.unit])
+    t = t - t[0] if len(t) and time.unit in SINCE_1970 else t
     lines = np.array(table.lines)[known]
     falls = np.flatnonzero(np.diff(t) < 0)
     if falls.size:
@@ -97,12 +103,19 @@ def settled(table: Table, rate: float = 0.0) -> Data:
             )
     if not series:
         raise MeasuredError("nothing", line=max(table.lines[0] - 1, 1))
+    for one, other in TOGETHER:
+        if one in series:  # one point, in one picture
+            error = float(np.hypot(series[one].error, series[other].error) / np.sqrt(2))
+            series |= {name: replace(series[name], error=error) for name in (one, other)}
     return Data(MappingProxyType(series))
 
 
 def _series(column: Column, t: Array, known: Array, lines: Array) -> Series:
     size = UNITS[column.quantity][column.unit]
     values = column.values[known] * size
+    if is_from_x(column.name) and column.quantity in ("line", "tilt"):  # from the upright, as the tilt
+        values = (np.pi / 2 - values + np.pi) % (2 * np.pi) - np.pi
+        values = np.abs(values) if column.quantity == "tilt" else values
     good = np.isfinite(values)
     if good.sum() < 4:
         raise MeasuredError("few-values", name=column.name, count=int(good.sum()))

@@ -3,8 +3,8 @@
 import panel as pn
 import panel_material_ui as pmui
 
-from app.borrowed import at_once
 from app.model.bodies import body, outline
+from app.model.measured.cells import MeasuredError
 from app.model.measured.data import settled
 from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
 from app.model.measured.film import Film, opened, unpacked, written
@@ -12,13 +12,13 @@ from app.model.measured.kept import kept
 from app.model.measured.made import LAW, found_of_example, is_stored
 from app.model.measured.remembered import said_of
 from app.model.measured.shown import placed
-from app.model.measured.table import LARGEST, MeasuredError, read
+from app.model.measured.table import read
 from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, part_of
 from app.model.runs import Run, Runs, Stopped
-from app.state import asked
+from app.tabs.measure.asks import Asks
 from app.tabs.measure.columns import Columns
 from app.tabs.measure.figures import Pictures, constants, part_of_time
-from app.tabs.measure.file import Filmed, MeasuredFile
+from app.tabs.measure.file import Brought, Filmed
 from app.tabs.measure.home import Home
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.stage import film_stage, show_film
@@ -50,12 +50,11 @@ class Measure:
         self._read, self._of_file, self._silent, self.filmed = None, None, False, Filmed()
         self._found, self._kept, self._thinned, self._notes = None, {}, 1, ""
         self._saved = ()  # the fits of a film that is being opened
-        self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
-        at_once(self.file, "table")
-        self.file.param.watch(asked.heard(self._brought), "table")
-        self.stage, self.pictures = film_stage(), Pictures(self._pulled)
-        self.columns = Columns(self._corrected, self._wrong)
         self.said, self.about = words(), words()
+        self.file = Brought(self._runs, self.take, self._not_taken, self.said).file
+        self.asks = Asks(self._answered)
+        self.stage, self.pictures = film_stage(), Pictures(self._pulled)
+        self.columns = Columns(self._by_hand, self._wrong)
         self.constants, self.over, self.below = (pn.Column(sizing_mode="stretch_width", margin=0) for _ in range(3))
         self._make_controls()
         self.found = words(note(say("measure.nothing_yet")), style=TABLE)
@@ -94,7 +93,7 @@ class Measure:
             self.take_example(FIRST)
             self.said.object = wrong or self.said.object
         parts = {
-            "over": [self.said, self.over, self.pictures.view, self.part],
+            "over": [self.said, self.over, self.asks.view, self.pictures.view, self.part],
             "found": [self.stage, self.found, self.file, flow(self.take_home, self.recipe), self.home.view,
                       flow(*examples), words(note(say("measure.private"))), self.about, flow(self.law), self.loose,
                       flow(self.start, self.cancel)],
@@ -148,13 +147,13 @@ class Measure:
     def _wrong(self, sentence):
         self.said.object = alert(sentence)
 
-    def _brought(self, event):
-        kinds = asked.text, asked.number, asked.number, asked.text, asked.number
-        text, each, _, name, size = asked.parts(event.new, *kinds)
-        if each < 1:
-            self._not_taken(MeasuredError("too-large", size=size / 1000, most=LARGEST / 1000))
-        else:
-            self.take(text, int(each), name=name)
+    def _answered(self, table):
+        self.columns.show(table)
+        self._place_columns(self.below if self._corrected(table) else self.over)
+
+    def _by_hand(self, table):
+        self.asks.remember(table)
+        self._corrected(table)
 
     def take_example(self, name):
         """Loads one of EXAMPLES, with default settings."""
@@ -177,6 +176,7 @@ class Measure:
         self._thinned, self._example, self._read, self._of_file, self._name = each, example, table, film, name
         self._say_top()
         self.filmed.film = link
+        table = self.asks.show(table, anew=bool(film or example))
         self.columns.show(table)
         self._saved = film.fits if film else ()
         is_ready = self._corrected(table, film and film.part)
