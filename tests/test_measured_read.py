@@ -9,6 +9,8 @@ from app.model.measured.data import settled
 from app.model.measured.names import understood
 from app.model.measured.table import read, taken_as
 from app.tabs.measure.measure import Measure
+from app.tabs.measure.recipe import recipe
+from app.text import LANGUAGES, speaking
 
 T = np.arange(20) / 60  # s
 TILT = 0.1 + 0.5 * T  # rad
@@ -179,3 +181,14 @@ def test_what_was_chosen_by_hand_is_used_for_the_next_file_with_the_same_names()
     other = Measure(Explorer().scene)  # the choices of one page are not those of another
     other.take(table(names, T, TILT, SPIN))
     assert other._data is None
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_there_is_a_sheet_for_each_program_and_it_says_that_it_was_not_tried(language):
+    with speaking(language):
+        page = recipe("sheets")
+        button = Measure(Explorer().scene).recipes[1]
+    for program in ("Tracker 6", "Capstone 2", "Logger Pro 3", "Graphical Analysis 5", "phyphox", "Sensor Logger"):
+        assert program in page
+    assert {"en": "not tried by us", "de": "von uns nicht"}[language] in page
+    assert button.filename == "from-your-program.html" and "Tracker" in button.label

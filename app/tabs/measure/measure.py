@@ -20,12 +20,11 @@ from app.tabs.measure.columns import Columns
 from app.tabs.measure.figures import Pictures, constants, part_of_time
 from app.tabs.measure.file import Brought, Filmed
 from app.tabs.measure.home import Home
-from app.tabs.measure.recipe import recipe
+from app.tabs.measure.recipe import recipes
 from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words, source_words
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
-from app.widgets.download import Download
 from tippe_core import Top, TopError
 
 PLACES = """
@@ -76,8 +75,7 @@ class Measure:
         on_click(self.cancel, lambda event: self._run and self._run.stop())
         self.take_home = pmui.Button(label=say("measure.take_home"), disabled=True, **BUTTON)
         on_click(self.take_home, lambda event: self.home.view.param.update(visible=not self.home.view.visible))
-        self.recipe = Download(self._runs, tuple, lambda: recipe().encode(), label=say("measure.recipe"),
-                               filename="film-a-top.html")  # fmt: skip
+        self.recipes = recipes(self._runs)
 
     @property
     def view(self):
@@ -94,7 +92,7 @@ class Measure:
             self.said.object = wrong or self.said.object
         parts = {
             "over": [self.said, self.over, self.asks.view, self.pictures.view, self.part],
-            "found": [self.stage, self.found, self.file, flow(self.take_home, self.recipe), self.home.view,
+            "found": [self.stage, self.found, self.file, flow(self.take_home, *self.recipes), self.home.view,
                       flow(*examples), words(note(say("measure.private"))), self.about, flow(self.law), self.loose,
                       flow(self.start, self.cancel)],
             "table": [self.below, _head("constants"), self.constants],
