@@ -2,9 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cache
 from types import MappingProxyType
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from app.model.measured.cells import MeasuredError
 from app.model.measured.names import UNITS, is_from_x
@@ -23,6 +25,7 @@ CAN_BE = {
     "line": (-4.0, 4.0),
 }
 FAR = -5.0, 5.0  # m
+PIECE, LAG = 48, 16  # values from which the noise is found, and those that are looked at together
 SINCE_1970 = ("us", "ns")  # units of times that a phone counts from then: here from the first
 """{quantity: what a film of a top can show of it}, in rad and rad/s; FAR for all lengths. Beyond, the unit is wrong."""
 
@@ -57,6 +60,18 @@ class Data:
     def handed(self) -> bool:
         """Whether these data tell a motion from its mirror image."""
         return are_handed(self.series)
+
+    def without(self, far: Iterable[tuple[str, float]]) -> "Data":
+        """The Data without these values: (quantity, time in s), and what belongs to them in a pair."""
+        times: dict[str, set[float]] = {}
+        for name, t in far:
+            for each in next((pair for pair in TOGETHER if name in pair), (name,)):
+                times.setdefault(each, set()).add(t)
+        kept = {}
+        for name, series in self.series.items():
+            there = ~np.isin(series.t, [*times.get(name, ())])
+            kept[name] = Series(series.t[there], series.values[there], series.error)
+        return Data(MappingProxyType(kept))
 
     def between(self, start: float, end: float) -> "Data":
         """The Data from start to end (s). Raises MeasuredError if they are fewer than eight values."""
@@ -133,7 +148,29 @@ def _series(column: Column, t: Array, known: Array, lines: Array) -> Series:
 
 
 def roughness(values: Array) -> float:
-    """The standard error of one value, from the scatter about a smooth curve: the median size of the third differences,
-    whose variance is 20 times that of a value."""
+    """The standard error of one value, from the scatter about a curve: the smaller one of two estimates.
+
+    Of a smooth curve the third differences are noise alone: their variance is 20 times that of a value. A nutation that
+    takes only a few frames is no noise either, but its pieces of LAG values lie in a few dimensions; the other half of
+    the eigenvalues of their covariance is that of the noise (singular spectrum analysis)."""
     jumps = np.abs(np.diff(values, 3))
-    return float(np.median(jumps) / (0.6745 * np.sqrt(20))) if jumps.size else 0.0
+    smooth = float(np.median(jumps) / (0.6745 * np.sqrt(20))) if jumps.size else 0.0
+    size = min(len(values), PIECE)
+    if size < 2 * LAG:
+        return smooth
+    begins = np.linspace(0, len(values) - size, len(values) // size).astype(int)
+    quiet = np.median([_quiet(values[at : at + size]) for at in begins]) / _of_noise(size)
+    return min(smooth, float(np.sqrt(max(quiet, 0.0))))
+
+
+def _quiet(piece: Array) -> float:
+    """The mean of the smaller half of the eigenvalues of the covariance of LAG values that follow one another."""
+    rows = sliding_window_view(piece - piece.mean(), LAG)
+    return float(np.linalg.eigvalsh(rows.T @ rows / len(rows))[: LAG // 2].mean())
+
+
+@cache
+def _of_noise(size: int) -> float:
+    """The same of noise of variance 1: its mean over 300 pieces."""
+    rng = np.random.default_rng(0)
+    return float(np.mean([_quiet(rng.normal(size=size)) for _ in range(300)]))

@@ -1,5 +1,7 @@
 """The tab Measure: measurements of a filmed top beside fitted rolling and sliding motions."""
 
+from dataclasses import replace
+
 import panel as pn
 import panel_material_ui as pmui
 
@@ -20,6 +22,7 @@ from app.tabs.measure.columns import Columns
 from app.tabs.measure.figures import Pictures, constants, part_of_time
 from app.tabs.measure.file import Brought, Filmed
 from app.tabs.measure.home import Home
+from app.tabs.measure.places import head, in_places
 from app.tabs.measure.recipe import recipes
 from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words, source_words
@@ -27,14 +30,6 @@ from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from tippe_core import Top, TopError
 
-PLACES = """
-:host { display: grid; gap: 12px 24px; padding: 12px 24px 16px; align-items: start; box-sizing: border-box;
-  /* max-content: Panel's columns may shrink to nothing, and an auto row would let them where the window is short */
-  grid-template: "over found" max-content "table found" minmax(max-content, 1fr) / minmax(0, 1fr) minmax(300px, 28.6%) }
-.over { grid-area: over } .table { grid-area: table } .found { grid-area: found; min-width: 0 }
-@media (max-width: 800px) { :host { padding: 12px 16px 16px;
-  grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
-"""
 FIRST = EXAMPLES[0]
 
 
@@ -73,6 +68,8 @@ class Measure:
         self.cancel = pmui.Button(label=say("measure.cancel"), disabled=True, **BUTTON)
         on_click(self.start, self.compute)
         on_click(self.cancel, lambda event: self._run and self._run.stop())
+        self.leave = pmui.Button(label=say("measure.leave"), visible=False, **BUTTON)
+        on_click(self.leave, self._leave)
         self.take_home = pmui.Button(label=say("measure.take_home"), disabled=True, **BUTTON)
         on_click(self.take_home, lambda event: self.home.view.param.update(visible=not self.home.view.visible))
         self.recipes = recipes(self._runs)
@@ -92,14 +89,12 @@ class Measure:
             self.said.object = wrong or self.said.object
         parts = {
             "over": [self.said, self.over, self.asks.view, self.pictures.view, self.part],
-            "found": [self.stage, self.found, self.file, flow(self.take_home, *self.recipes), self.home.view,
-                      flow(*examples), words(note(say("measure.private"))), self.about, flow(self.law), self.loose,
-                      flow(self.start, self.cancel)],
-            "table": [self.below, _head("constants"), self.constants],
+            "found": [self.stage, self.found, self.leave, self.file, flow(self.take_home, *self.recipes),
+                      self.home.view, flow(*examples), words(note(say("measure.private"))), self.about,
+                      flow(self.law), self.loose, flow(self.start, self.cancel)],
+            "table": [self.below, head("constants"), self.constants],
         }  # fmt: skip
-        sides = [pn.Column(*part, css_classes=[place], sizing_mode="stretch_width", margin=0)
-                 for place, part in parts.items()]  # fmt: skip
-        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, stylesheets=[PLACES])
+        return in_places(parts)
 
     def show(self, scene):
         """From now on films are of this scene's top; a fit that was made stays."""
@@ -186,7 +181,7 @@ class Measure:
     def _place_columns(self, place):
         """Shows the columns there: where they are asked for, at the top, as long as this table is there."""
         self.over.objects = self.below.objects = []
-        place.objects = [self.columns.view] if place is self.over else [_head("columns"), self.columns.view]
+        place.objects = [self.columns.view] if place is self.over else [head("columns"), self.columns.view]
 
     def _not_taken(self, error, each=1):
         self._refused(error, each)
@@ -199,7 +194,7 @@ class Measure:
         for run in (self._guess, self._run):
             if run:
                 run.forget()
-        self._found, self._kept = None, {}
+        self._found, self._kept, self.leave.visible = None, {}, False
         with pn.io.hold():  # Bokeh refuses changes of its figures without the document's lock
             self.found.object, self.constants.objects = "", []
             self.home.clear()
@@ -256,6 +251,7 @@ class Measure:
         if self._data is None or self._silent:
             return
         self._found, self._kept, self._part = None, {}, tuple(map(float, self.part.value))
+        self.leave.visible = False
         self.home.clear()
         self.take_home.disabled = not (self._is_at_hand and self._runs.beside)
         try:
@@ -328,7 +324,7 @@ class Measure:
                 raise result
             return
         self._found = result
-        self.found.object = result_words(result, self._again)
+        self.found.object, self.leave.visible = result_words(result, self._again), bool(result.better.far)
         self.pictures.show(result.motion, result.better)
         show_film(self.stage, result.motion, self._body[3])
         self.take_home.disabled = False
@@ -336,13 +332,18 @@ class Measure:
         data = self._data.between(*self._part)
         self.home.show(self._film(), data, result.fits, self._loose, self._part, says, result.kept)
 
+    def _leave(self, event):
+        """Leaves out the values that are far off the fit, and fits the others."""
+        if self._found:
+            data, far = self._found.motion.data, self._found.better.far
+            self._data = self._data.without((name, data.series[name].t[i]) for name, at in far.items() for i in at)
+            self._table = replace(self._table)  # no longer a whole example
+            self._begin()
+            self.compute()
+
     def _film(self):
         """The text of the film with the present fit."""
         top, scales, shape, _ = self._body
         film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape,
                     tuple(said_of(each) for each in self._found.fits) if self._found else ())  # fmt: skip
         return written(film, self._data)
-
-
-def _head(name):
-    return words(f"<h2>{say(f'measure.{name}_head')}</h2>{note(say(f'measure.{name}_says'))}", margin=(16, 0, 4, 0))
