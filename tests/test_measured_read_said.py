@@ -1,13 +1,17 @@
 """What a fit says that is wrong with its data: values far off, errors too large, numbers that a bound decided."""
 
+import re
+
 import measured_bodies as bodies
 import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
 from app.model.measured.data import Data, Series, roughness
+from app.model.measured.film import table_of
 from app.model.measured.fit import FAR, Fit, verdict
 from app.model.measured.motion import BOUNDS, Residuals, model_of, residuals_of, shifted
+from app.model.measured.report import program, residuals_table
 from app.model.measured.work import Found
 from app.tabs.measure.measure import Measure
 from app.tabs.measure.words import far_words, found_words, numbers_table
@@ -131,3 +135,21 @@ def test_values_that_are_far_off_can_be_left_out(monkeypatch):
     tab._leave(None)
     assert not tab.leave.visible and not fitted[1].refused and len(tab._data.series["tilt"].t) == 57
     assert "6 errors off" not in tab.found.object
+
+
+def test_no_cell_of_an_export_is_one_that_a_spreadsheet_would_execute():
+    """Whatever the names of the file's columns: none of its words gets into a file that is taken home."""
+    harm = "=cmd|'/C calc'!A0", "@SUM(1+9)*cmd", '+HYPERLINK("http://x/") <img src=x onerror=alert(1)>'
+    rows = "".join(f"{t:.4f}\t{-0.3 - 0.1 * t:.4f}\t{-20 + t:.4f}\n" for t in T)
+    tab = Measure(Explorer().scene)
+    tab.take("\t".join(harm) + "\n" + rows, name="=1+1.csv")
+    for i, quantity in enumerate(("time", "azimuth", "spin")):
+        tab.columns.view.objects[i].objects[1].value = quantity
+    model = model_of("smoothed", Top.paper(), SIZES)
+    residuals = residuals_of(model, tab._data)
+    fit = Fit(model, dict.fromkeys(model.free, (0.1, 0.1)), np.eye(4), residuals, 0, {}, (), True)
+    for text in (table_of(tab._data), residuals_table(tab._data, fit)):
+        for cell in re.split(r"[\t,\n]", text):
+            assert not cell.startswith(("=", "@", "+", "\r")) and (cell[:1] != "-" or float(cell) < 0), cell
+    whole = table_of(tab._data) + residuals_table(tab._data, fit) + program(tab._data, (fit,), (), 0.0, 1.0)
+    assert not any(part in whole for part in ("cmd", "HYPERLINK", "onerror", "1+1"))
