@@ -13,7 +13,7 @@ from tippe_core import Scales, Top
 T = np.arange(60) / 60  # s
 TILT = 0.1 + 0.9 * T  # rad
 SPIN = 125.0 - 10 * T  # rad/s
-ZIP = "PK\x03\x04\x14\0\0\0\x08\0"  # as each such file begins
+ZIP = b"PK\x03\x04\x14\0\0\0\x08\0"  # as each such file begins
 PASCO = ("Time (s) Run #1", "Angle (rad) Run #1", "Angular Velocity (rad/s) Run #1")
 
 
@@ -25,7 +25,7 @@ def table(names, *columns, between="\t", comma=True):
 
 
 KNOWN = table(("t (s)", "tilt (rad)", "spin (rad/s)"))
-UNKNOWN = table(PASCO)
+UNKNOWN = table(("Time A [s]", "Winkel A in rad", "Drehung A [rad/s]"))
 FRAMES = table(("frame", "tilt (rad)"), np.arange(60), TILT)
 FALLS = table(("t (s)", "tilt (rad)"), T[::-1], TILT)
 FAR = table(("t (s)", "tilt (rad)"), 1.7e15 + 1e3 * np.arange(60), TILT)  # no film's times
@@ -101,7 +101,7 @@ def test_where_no_column_is_known_the_page_asks_at_its_top(language):
 def test_a_file_that_cannot_be_read_says_what_is_still_shown(fitted):
     before = fitted.found.object, fitted.stage.frames, fitted.filmed.film
     fitted.take(ZIP, name="export.zip")
-    assert "Unpack it" in fitted.said.object and "Still shown: Example: it slips" in fitted.said.object
+    assert "cannot be opened" in fitted.said.object and "Still shown: Example: it slips" in fitted.said.object
     assert (fitted.found.object, fitted.stage.frames, fitted.filmed.film) == before and not fitted.take_home.disabled
     fitted.take(KNOWN, name="<b>first</b>.txt")
     fitted.take(ZIP, name="export.zip")

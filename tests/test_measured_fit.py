@@ -210,7 +210,8 @@ def test_a_film_sees_what_a_body_in_space_shows():
              "tip_x": R * end[:, 0], "tip_y": R * end[:, 1], "tilt": np.arccos(axes[:, 2]),
              "spin": (motion.omega * axes).sum(axis=1) / scales.time,
              "precession": (axes[:, 0] * turning[:, 1] - axes[:, 1] * turning[:, 0]) / flat / scales.time,
-             "azimuth": np.unwrap(np.arctan2(axes[:, 0], -axes[:, 1]))}  # fmt: skip
+             "azimuth": np.unwrap(np.arctan2(axes[:, 0], -axes[:, 1])),
+             "axis_x": axes[:, 0], "axis_y": axes[:, 1], "axis_up": axes[:, 2]}  # fmt: skip
     seen = model_of(kind, top, scales).with_values(truth).with_stem(None, tip).seen(t)
     assert {*seen} == {*shown}
     for name, values in shown.items():

@@ -25,7 +25,6 @@ NOT_SAID = {
     **{name: {"": "files of data and programs, which are the same in every language"}
        for name in ("export.py", "measured/examples.py", "measured/report.py", "glb.py", "programs.py",
                     "saved_runs.py")},
-    "measured/table.py": {"": "what tables call their columns"},
     "codecs.py": {"not one of {}": "said to the log"},
     **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
     "prints.py": {"tippe top": "never shown"},

@@ -145,7 +145,9 @@ interface MeasuredFileModel extends Model {
   most: number;
   rows: number;
   head: number;
+  packed: number;
   table: [text: string, each: number, count: number, name: string, size: number];
+  piece: [text: string, at: number, pieces: number, count: number, name: string, size: number];
 }
 
 interface PhotoModel extends Model {

@@ -1,24 +1,32 @@
 """Measured data in s, rad and m: the columns of a Table with the quantities and units that the visitor confirmed."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from types import MappingProxyType
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
-from app.model.measured.table import UNITS, Column, MeasuredError, Table
+from app.model.measured.cells import MeasuredError
+from app.model.measured.names import UNITS, is_from_x
+from app.model.measured.table import Column, Table
 from tippe_core.types import Array
 
-TOGETHER = (("x", "y"), ("tip_x", "tip_y"))
-HANDED = {"spin", "precession", "azimuth", "x", "tip_x"}
+TRACKS = (("x", "y"), ("tip_x", "tip_y"))
+TOGETHER = (*TRACKS, ("axis_x", "axis_y"), ("axis_side", "axis_up"))
+HANDED = {"spin", "precession", "azimuth", "x", "tip_x", "axis_x"}
 """Quantities that tell a motion from its mirror image. A film from the side does not: it may be from either side."""
 CAN_BE = {
     "tilt": (-0.5, np.pi + 0.5),
     "spin": (-4000.0, 4000.0),
     "precession": (-4000.0, 4000.0),
     "azimuth": (-1e5, 1e5),
+    "line": (-4.0, 4.0),
 }
 FAR = -5.0, 5.0  # m
+PIECE, LAG = 48, 16  # values from which the noise is found, and those that are looked at together
+SINCE_1970 = ("us", "ns")  # units of times that a phone counts from then: here from the first
 """{quantity: what a film of a top can show of it}, in rad and rad/s; FAR for all lengths. Beyond, the unit is wrong."""
 
 
@@ -53,6 +61,18 @@ class Data:
         """Whether these data tell a motion from its mirror image."""
         return are_handed(self.series)
 
+    def without(self, far: Iterable[tuple[str, float]]) -> "Data":
+        """The Data without these values: (quantity, time in s), and what belongs to them in a pair."""
+        times: dict[str, set[float]] = {}
+        for name, t in far:
+            for each in next((pair for pair in TOGETHER if name in pair), (name,)):
+                times.setdefault(each, set()).add(t)
+        kept = {}
+        for name, series in self.series.items():
+            there = ~np.isin(series.t, [*times.get(name, ())])
+            kept[name] = Series(series.t[there], series.values[there], series.error)
+        return Data(MappingProxyType(kept))
+
     def between(self, start: float, end: float) -> "Data":
         """The Data from start to end (s). Raises MeasuredError if they are fewer than eight values."""
         parts = {}
@@ -82,6 +102,7 @@ def settled(table: Table, rate: float = 0.0) -> Data:
         raise MeasuredError("rate", rate=rate)
     known = np.isfinite(time.values)
     t = time.values[known] * (1 / rate if time.unit == "frames" else UNITS["time"][time.unit])
+    t = t - t[0] if len(t) and time.unit in SINCE_1970 else t
     lines = np.array(table.lines)[known]
     falls = np.flatnonzero(np.diff(t) < 0)
     if falls.size:
@@ -97,12 +118,19 @@ def settled(table: Table, rate: float = 0.0) -> Data:
             )
     if not series:
         raise MeasuredError("nothing", line=max(table.lines[0] - 1, 1))
+    for one, other in TOGETHER:
+        if one in series:  # one point, in one picture
+            error = float(np.hypot(series[one].error, series[other].error) / np.sqrt(2))
+            series |= {name: replace(series[name], error=error) for name in (one, other)}
     return Data(MappingProxyType(series))
 
 
 def _series(column: Column, t: Array, known: Array, lines: Array) -> Series:
     size = UNITS[column.quantity][column.unit]
     values = column.values[known] * size
+    if is_from_x(column.name) and column.quantity in ("line", "tilt"):  # from the upright, as the tilt
+        values = (np.pi / 2 - values + np.pi) % (2 * np.pi) - np.pi
+        values = np.abs(values) if column.quantity == "tilt" else values
     good = np.isfinite(values)
     if good.sum() < 4:
         raise MeasuredError("few-values", name=column.name, count=int(good.sum()))
@@ -120,7 +148,29 @@ def _series(column: Column, t: Array, known: Array, lines: Array) -> Series:
 
 
 def roughness(values: Array) -> float:
-    """The standard error of one value, from the scatter about a smooth curve: the median size of the third differences,
-    whose variance is 20 times that of a value."""
+    """The standard error of one value, from the scatter about a curve: the smaller one of two estimates.
+
+    Of a smooth curve the third differences are noise alone: their variance is 20 times that of a value. A nutation that
+    takes only a few frames is no noise either, but its pieces of LAG values lie in a few dimensions; the other half of
+    the eigenvalues of their covariance is that of the noise (singular spectrum analysis)."""
     jumps = np.abs(np.diff(values, 3))
-    return float(np.median(jumps) / (0.6745 * np.sqrt(20))) if jumps.size else 0.0
+    smooth = float(np.median(jumps) / (0.6745 * np.sqrt(20))) if jumps.size else 0.0
+    size = min(len(values), PIECE)
+    if size < 2 * LAG:
+        return smooth
+    begins = np.linspace(0, len(values) - size, len(values) // size).astype(int)
+    quiet = np.median([_quiet(values[at : at + size]) for at in begins]) / _of_noise(size)
+    return min(smooth, float(np.sqrt(max(quiet, 0.0))))
+
+
+def _quiet(piece: Array) -> float:
+    """The mean of the smaller half of the eigenvalues of the covariance of LAG values that follow one another."""
+    rows = sliding_window_view(piece - piece.mean(), LAG)
+    return float(np.linalg.eigvalsh(rows.T @ rows / len(rows))[: LAG // 2].mean())
+
+
+@cache
+def _of_noise(size: int) -> float:
+    """The same of noise of variance 1: its mean over 300 pieces."""
+    rng = np.random.default_rng(0)
+    return float(np.mean([_quiet(rng.normal(size=size)) for _ in range(300)]))

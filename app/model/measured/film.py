@@ -12,10 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from app.model.measured.cells import MeasuredError
 from app.model.measured.data import Data, Series
 from app.model.measured.motion import OF_LAW
 from app.model.measured.remembered import checked
-from app.model.measured.table import LARGEST, MeasuredError
+from app.model.measured.unpack import LARGEST
 from app.model.measured.work import LOOSE, models
 from tippe_core import Scales, Shape, Top, TopError, load_top, save_top
 
@@ -23,7 +24,7 @@ MARK = "# film:"
 FINE = 20.0  # a value is written to this fraction of its error
 MICRO = 6  # decimals of a time in s
 LONGEST_PACKED = 6000  # characters of a link
-UNITS = {"tilt": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"}
+UNITS = {"tilt": "rad", "line": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"}
 
 
 @dataclass(frozen=True, eq=False)

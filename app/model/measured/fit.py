@@ -29,6 +29,9 @@ ALL = slice(None)
 GROWING = (0.25, 0.5, 0.75)  # fractions of the time that are fitted one after the other
 TOGETHER = 0.95  # correlation above which two parameters are said to be correlated
 REFUSED = 1e-3  # significance level: a correct model is rejected this often
+FAR = 6.0  # standard errors: a value that is farther off was hardly measured right
+FEW = 0.1  # of the values: if more are far off, it is the model that is wrong
+AT_END = 0.01  # of its value: a number so close to its bound was decided by it
 CLEARLY = 6.0  # difference in AIC above which one model is said to be better
 
 
@@ -79,6 +82,30 @@ class Fit:
         """Whether the data reject the model, by chi-square or by residuals that change sign too rarely."""
         seldom = norm.ppf(REFUSED / (2 * len(self.runs)))
         return bool(chi_square.sf(self.chi2, self.freedom) < REFUSED or min(self.runs.values()) < seldom)
+
+    @property
+    def too_good(self) -> float:
+        """How many times too large the errors of the values are, if chi-square is too small for chance, else 0."""
+        small = chi_square.cdf(self.chi2, self.freedom) < REFUSED
+        return float(np.sqrt(self.freedom / max(self.chi2, 1e-12))) if small else 0.0
+
+    @property
+    def far(self) -> dict[str, tuple[int, ...]]:
+        """{quantity: which of its values are more than FAR errors off}, if they are few."""
+        found = {name: tuple(map(int, np.flatnonzero(np.abs(row) > FAR))) for name, row in self.residuals.of.items()}
+        few = 0 < sum(map(len, found.values())) <= FEW * len(self.residuals.row)
+        return {name: at for name, at in found.items() if at} if few else {}
+
+    @property
+    def bounded(self) -> dict[str, float]:
+        """{parameter: the bound that decided its value}."""
+        found = {}
+        for name in self.model.free:
+            value = self.model.values[name]
+            for bound in BOUNDS[name]:
+                if abs(value - bound) <= AT_END * abs(bound) or (bound == 0 and value < 1e-6):
+                    found[name] = bound
+        return found
 
     @property
     def handed(self) -> bool:

@@ -1,11 +1,12 @@
 """A rolling or sliding motion with parameters that can be fitted, as a film shows it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
 
-from app.model.measured.data import TOGETHER, Data
+from app.model.measured.data import TRACKS, Data, Series
 from tippe_core import (
     Contensou,
     Scales,
@@ -35,9 +36,10 @@ BOUNDS = {
 """{parameter: its bounds}, in units of R, M and g; across is omega_2'."""
 RTOL = 1e-9
 NO_MOTION = 1e4  # the residual for parameters that give no motion
-MOST_SHIFTED = {"azimuth": 1, "x": 3, "tip_x": 3, "side": 2, "tip_side": 2}
+MOST_SHIFTED = {"azimuth": 1, "x": 3, "tip_x": 3, "side": 2, "tip_side": 2, "line": 1, "axis_side": 2, "axis_x": 2}
 """{quantity: how many parameters of the camera are fitted to it}: the zero of the azimuth, the origin and direction of
-a track, or, from the side, where it is in the picture and the direction from which it is seen."""
+a track, or, from the side, where it is in the picture and the direction from which it is seen; of two points on the
+axis that direction and their distance."""
 SIDEWAYS = {"side": ("x", "y"), "tip_side": ("tip_x", "tip_y")}
 """{place across a picture from the side: the track of which it is a projection}."""
 DIRECTIONS = np.linspace(0, 2 * np.pi, 72, endpoint=False)
@@ -102,6 +104,9 @@ class Model:
             "y": R * contact[:, 1],
             "tip_x": R * tip[:, 0],
             "tip_y": R * tip[:, 1],
+            "axis_x": s * np.sin(phi),
+            "axis_y": -s * np.cos(phi),
+            "axis_up": c,
         }
 
 
@@ -124,15 +129,19 @@ def residuals_of(model: Model, data: Data) -> Residuals:
     times = data.t
     seen, residuals = model.seen(times), Residuals()
     at = {name: np.searchsorted(times, series.t) for name, series in data.series.items()}
-    shown = {name: seen[name][at[name]] for name in data.series if name not in SIDEWAYS}
+    shown = {name: seen[name][at[name]] for name in data.series if name in seen}
     if "azimuth" in shown:
         shown["azimuth"] = shown["azimuth"] + np.mean(data.series["azimuth"].values - shown["azimuth"])
-    for x, y in TOGETHER:
+    for x, y in TRACKS:
         if x in shown and len(at[x]) == len(at[y]):
             shown[x], shown[y] = _turned(shown[x], shown[y], data.series[x].values, data.series[y].values)
     for name in SIDEWAYS.keys() & data.series.keys():
         x, y = (seen[each][at[name]] for each in SIDEWAYS[name])
         shown[name] = _from_the_side(x, y, data.series[name].values)
+    for name in {"axis_x", "axis_side", "line"} & data.series.keys():
+        there = at[name]
+        lean, up = seen["axis_x"][there] + 1j * seen["axis_y"][there], seen["axis_up"][there]
+        shown |= _axis_seen(name, lean, up, data.series)
     for name, series in data.series.items():
         residuals.values[name] = shown[name]
         residuals.of[name] = (series.values - shown[name]) / series.error
@@ -162,6 +171,47 @@ def _from_the_side(x: Array, y: Array, seen: Array) -> Array:
         bend = 2 * (once.real - twice.real)
         turn -= (twice.imag - 2 * once.imag) / bend if bend > 0 else 0.0
     return np.real(own * np.exp(-1j * turn)) + seen.mean()
+
+
+def _axis_seen(name: str, lean: Array, up: Array, series: Mapping[str, Series]) -> dict[str, Array]:
+    """The axis (lean + up) in a picture, fitted over the camera's direction psi_0 and, of two points, their distance L:
+
+    from above  L lean exp(-i psi_0);  from the side  L (h, up), h = Re lean exp(-i psi_0);  its angle  arctan(h/up)"""
+    if name == "axis_x":
+        seen = series["axis_x"].values + 1j * series["axis_y"].values
+        seen = lean * np.vdot(lean, seen) / max(float(np.vdot(lean, lean).real), 1e-12)
+        return {"axis_x": seen.real, "axis_y": seen.imag}
+    if name == "line":
+        seen = series["line"].values
+        turn = DIRECTIONS[np.argmin([np.sum(_between(seen, lean, up, turn)[0] ** 2) for turn in DIRECTIONS])]
+        for _ in range(12):  # Gauss and Newton
+            left, slope = _between(seen, lean, up, turn)
+            turn += float(left @ slope) / max(float(slope @ slope), 1e-12)
+        return {"line": seen - _between(seen, lean, up, turn)[0]}
+    across, high = series["axis_side"].values, series["axis_up"].values
+    a, b, d = across @ lean, np.sum(lean**2), high @ up
+    fixed = float(np.vdot(lean, lean).real) / 2 + up @ up
+
+    def parts(turn: Array | float) -> tuple[Array, Array]:
+        return np.real(a * np.exp(-1j * turn)) + d, fixed + np.real(b * np.exp(-2j * turn)) / 2
+
+    top, under = parts(DIRECTIONS)  # L = top/under, and the sum of squares falls by top^2/under
+    turn = DIRECTIONS[np.argmax(top * np.abs(top) / under)]
+    for _ in range(12):  # Newton, for the logarithm of that
+        top, under = parts(turn)
+        of_top, of_under = np.imag(a * np.exp(-1j * turn)) / top, np.imag(b * np.exp(-2j * turn)) / under
+        bend = 2 * (d / top - 1 - of_top**2) + 4 * (1 - fixed / under) + of_under**2
+        turn -= (2 * of_top - of_under) / bend if bend < 0 else 0.0
+    top, under = parts(turn)
+    length = top / under
+    return {"axis_side": length * np.real(lean * np.exp(-1j * turn)), "axis_up": length * up}
+
+
+def _between(seen: Array, lean: Array, up: Array, turn: float) -> tuple[Array, Array]:
+    """(the angle from the model's line to the one that was seen, the derivative of the model's by turn)."""
+    turned = lean * np.exp(-1j * turn)
+    h, left = turned.real, seen - np.arctan2(turned.real, up)
+    return (left + np.pi) % (2 * np.pi) - np.pi, up * turned.imag / np.maximum(h**2 + up**2, 1e-12)
 
 
 def tilt_by_tip(model: Model, heights: Array) -> Array:

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.model.frames import MOST_FRAMES, MOST_TURN, axes
+from app.model.measured.cells import MeasuredError
 from app.model.measured.data import TOGETHER, Data
 from app.model.measured.fit import Problem
 from app.model.measured.motion import SIDEWAYS, Model, Residuals, residuals_of, tilt_by_tip
 from app.model.measured.starts import starts
-from app.model.measured.table import MeasuredError
 from tippe_core import TopError, Trajectory
 from tippe_core.types import Array
 
@@ -54,7 +54,7 @@ def shown(model: Model, data: Data) -> Shown:
 def _curves(model: Model, data: Data, residuals: Residuals) -> dict[str, tuple[Array, Array]]:
     times = data.t
     fine = np.union1d(times, np.linspace(times[0], times[-1], POINTS))
-    seen, tracks = model.seen(fine), {*SIDEWAYS, *(name for pair in TOGETHER for name in pair)}
+    seen, tracks = model.seen(fine), {"line", *SIDEWAYS, *(name for pair in TOGETHER for name in pair)}
     curves = {}
     for name, series in data.series.items():
         if name in tracks:

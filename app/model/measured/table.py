@@ -1,85 +1,26 @@
 """Reads a table of measurements of a top, from a film or a phone, and interprets each column.
 
-Tracker separates columns with tabs or commas, below a line or two of names; a sheet may have a line of units below the
-names; phyphox puts names and units in quotes; spreadsheets use semicolons and decimal commas. What cannot be read
-raises a MeasuredError with its line; what was read but left out is a note of the Table.
+What cannot be read raises a MeasuredError with its line; what was read but left out is a note of the Table.
 """
 
+import json
 import math
-import re
+import subprocess
+import sys
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from threading import Lock
 
 import numpy as np
 
+from app.model.measured import unpack
+from app.model.measured.cells import MeasuredError, Notes, cells_of
+from app.model.measured.names import UNITS, likely, understood, without_run
+from app.model.measured.points import Roles, guessed_view, roles_of, with_axis
+from app.model.measured.unpack import HEAD, LARGEST, PACKED, SECONDS, UNPACKED, decoded, is_packed
 from tippe_core.types import Array
 
-LARGEST = 200_000
-"""Bytes of a table as it is sent, in JSON, with room for the rest of the message: the server accepts 256 KiB."""
-FEWEST, MOST = 8, 5000
-"""The least and the largest number of rows."""
-HEAD = 12
-"""The number of first lines that the browser keeps when it shortens a long table."""
-USUAL = {"rev/s": 60.0, "rad/s": 600.0, "deg/s": math.inf}
-"""{unit: the largest spin that is plausible in it}."""
-SLOWEST = 1.0  # between two rows: a longer step is in ms, not in s
-
-ANGLES = {"deg": math.pi / 180, "rad": 1.0}
-RATES = {"rev/s": 2 * math.pi, "rad/s": 1.0, "deg/s": math.pi / 180, "rpm": math.pi / 30}
-LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-UNITS = {
-    "time": {"s": 1.0, "ms": 1e-3, "frames": 1.0},
-    "tilt": ANGLES,
-    "azimuth": ANGLES,
-    "spin": RATES,
-    "precession": RATES,
-    "height": LENGTHS,
-    "tip": LENGTHS,
-    "x": LENGTHS,
-    "y": LENGTHS,
-    "tip_x": LENGTHS,
-    "tip_y": LENGTHS,
-    "side": LENGTHS,
-    "tip_side": LENGTHS,
-}
-"""{quantity: {unit: its size in s, rad, rad/s or m}}; for frames the frame rate is needed as well."""
-
-# The names of each quantity in tables, in lower case and reduced to letters and digits.
-NAMES = {
-    "time": "t time zeit seconds frame frames bild bilder timestamp",
-    "tilt": "tilt theta θ thetar θr neigung inclination nutation tiltangle neigungswinkel",
-    "azimuth": "azimuth azimut phi φ ϕ",
-    "spin": "spin omega3 ω3 w3 ω drehung drehzahl eigendrehung gyroscopez gyroskopz angularvelocity "
-    "angularvelocityz winkelgeschwindigkeit winkelgeschwindigkeitz",
-    "precession": "precession präzession phidot precessionrate präzessionsrate",
-    "height": "height höhe heightofg h zg",
-    "tip": "tip tipheight stemtip spitze stielende heightoftip",
-    "x": "x contactx trackx",
-    "y": "y contacty tracky",
-    "tip_x": "tipx xtip stemtipx spitzex",
-    "tip_y": "tipy ytip stemtipy spitzey",
-    "side": "side fromtheside contactfromtheside vonderseite auflagevonderseite",
-    "tip_side": "tipside tipfromtheside stemtipfromtheside spitzevonderseite",
-}
-_QUANTITY = {name: quantity for quantity, names in NAMES.items() for name in names.split()}
-_UNIT = {
-    "s": "s", "sec": "s", "second": "s", "seconds": "s", "sekunden": "s", "ms": "ms", "frame": "frames",
-    "frames": "frames", "bild": "frames", "bilder": "frames", "deg": "deg", "°": "deg", "degree": "deg",
-    "degrees": "deg", "grad": "deg", "rad": "rad", "radian": "rad", "radians": "rad", "rev/s": "rev/s",
-    "u/s": "rev/s", "1/s": "rev/s", "hz": "rev/s", "rad/s": "rad/s", "deg/s": "deg/s", "°/s": "deg/s",
-    "grad/s": "deg/s", "rpm": "rpm", "rev/min": "rpm", "u/min": "rpm", "1/min": "rpm", "mm": "mm", "cm": "cm", "m": "m",
-}  # fmt: skip
-_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?", re.A)
-_UNIT_LAST = re.compile(r"(?:\s+in\s+|[/_ ]\s*)([^/_\s]+(?:/[^/_\s]+)?)\s*$")
-_GAP = {"", "-", "nan", "na", "n/a", "null", "none"}
-
-
-class MeasuredError(ValueError):
-    """An error in a table. code: a key of [wrong] in measure.toml; numbers: the values that its sentence quotes."""
-
-    def __init__(self, code: str, **numbers: object) -> None:
-        super().__init__(f"{code}: {numbers}")
-        self.code, self.numbers = code, numbers
+_OPENING = Lock()  # one file at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,241 +39,114 @@ class Column:
 @dataclass(frozen=True, eq=False)
 class Table:
     """lines: the line number in the file of each row. notes: (code, numbers); the codes are keys of [notes] in
-    measure.toml."""
+    measure.toml. runs: those in it; run: the one that is used. view: "side" or "above" if it has points of a film;
+    roles: what they are in each."""
 
     columns: tuple[Column, ...]
     lines: tuple[int, ...]
-    notes: tuple[tuple[str, dict[str, object]], ...] = ()
+    notes: Notes = ()
+    runs: tuple[str, ...] = ()
+    run: str = ""
+    view: str = ""
+    roles: Roles = field(default_factory=dict)
+
+    def of(self, run: str, view: str) -> "Table":
+        """The Table with the columns of this run, and those of points as seen from there."""
+        return replace(self, columns=_chosen(self.columns, self.roles, run, view), run=run, view=view)
+
+
+def text_inside(data: bytes) -> tuple[str, int]:
+    """(the text of the table in a file that is no text, n if it has every n-th row of it), by a program of its own that
+    may take little memory and time. Raises MeasuredError."""
+    if len(data) > PACKED:
+        raise MeasuredError("packed", size=len(data) / 1e6, most=PACKED / 1e6)
+    with _OPENING:
+        try:
+            done = subprocess.run([sys.executable, "-I", unpack.__file__], input=data, capture_output=True,
+                                  timeout=3 * SECONDS)  # fmt: skip
+            first, second = json.loads(done.stdout)
+        except (subprocess.TimeoutExpired, ValueError):
+            first, second = "bomb", {}
+    if isinstance(second, int):
+        return first, second
+    raise MeasuredError(first, **second, **({"most": UNPACKED / 1e6} if first == "bomb" else {}))
 
 
 def read(data: bytes | str) -> Table:
     """The Table in a file's bytes, or in a text. Raises MeasuredError, and nothing else."""
+    if isinstance(data, bytes) and is_packed(data):
+        data, _ = text_inside(data)
     size = len(data if isinstance(data, bytes) else data.encode("utf-8", "replace"))
     if size > LARGEST:
         raise MeasuredError("too-large", size=size / 1000, most=LARGEST / 1000)
-    text = _decoded(data) if isinstance(data, bytes) else data.removeprefix("\ufeff")
-    if text.startswith("PK\x03\x04"):
-        raise MeasuredError("packed")
+    text = decoded(data) if isinstance(data, bytes) else data.removeprefix("\ufeff")
     if "\0" in text:
         raise MeasuredError("no-text", line=text[: text.index("\0")].count("\n") + 1)
-    text = text.replace("\u2212", "-")  # a minus as programs print it
-    lines = [(number, line) for number, line in enumerate(re.split(r"\r\n|\r|\n", text), 1)
-             if line.strip() and not line.lstrip().startswith("#")]  # fmt: skip
-    if not lines:
-        raise MeasuredError("empty")
-    between = _separator(lines)
-    rows = [(number, _cells(line, between)) for number, line in lines]
-    if all(len(cells) > 1 and not cells[-1] for _, cells in rows):  # a separator after the last cell of each line
-        rows = [(number, cells[:-1]) for number, cells in rows]
-    first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells)), None)
-    if first is None:
-        raise MeasuredError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
-    width = len(rows[first][1])
-    heads = [_without_end(cells, width) for _, cells in rows[:first]]
-    heads = [cells for cells in heads if len(cells) == width]
-    if first and not heads and len(rows[first - 1][1]) > 1:
-        raise MeasuredError("width", line=rows[first][0], found=width, expected=len(rows[first - 1][1]))
-    return _table(_names(heads), rows[first:], between, whole=text[-1] in "\r\n")
+    cells = cells_of(text)
+    names, values = with_axis(cells.names, cells.values)
+    plain = tuple(Column(name, "", "", False, understood(name)[2], values[:, i]) for i, name in enumerate(names))
+    runs = tuple(dict.fromkeys(run for name in names if (run := without_run(name)[1])))
+    roles = {} if _is_logger(names) else roles_of(names)
+    view = guessed_view(names, values) if roles else ""
+    table = Table(plain, tuple(map(int, cells.lines)), cells.notes, runs, roles=roles)
+    table = table.of(runs[0] if runs else "", view)
+    return replace(table, notes=(*cells.notes, *_noted(table)))
 
 
-def _decoded(data: bytes) -> str:
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", "replace")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("cp1252", "replace")
-
-
-def _separator(lines: list[tuple[int, str]]) -> str:
-    """The separator: the one that occurs in most lines; a space only if there is no other, or commas are decimal."""
-    for between in "\t;,":
-        if sum(between in line and not (between == "," and _is_spaced(line)) for _, line in lines) > len(lines) / 2:
-            return between
-    return " "
-
-
-def _is_spaced(line: str) -> bool:
-    """Whether there are only spaces between the numbers of a line."""
-    cells = line.split()
-    return len(cells) > 1 and all(_NUMBER.fullmatch(cell) and not cell.endswith(",") for cell in cells)
-
-
-def _names(heads: list[list[str]]) -> list[str] | None:
-    """The names from the last line above the numbers, with the units of the line below them if that contains only
-    units, and below the point that Tracker followed if several columns have the same name."""
-    if len(heads) > 1 and all(not cell or _bare(cell) in _UNIT for cell in heads[-1]) and any(heads[-1]):
-        return [f"{name} ({_bare(unit)})" if unit else name for name, unit in zip(*heads[-2:], strict=True)]
-    if len(heads) > 1 and len(set(heads[-1])) < len(heads[-1]) and not heads[-2][0]:
-        names, point = [], ""
-        for above, name in zip(*heads[-2:], strict=True):
-            point = above or point
-            names.append(f"{point} {name}".strip())
-        return names
-    return heads[-1] if heads else None
-
-
-def _without_end(cells: list[str], width: int) -> list[str]:
-    """A line of names without the empty cells that Tracker adds at its end."""
-    full = max((i for i, cell in enumerate(cells, 1) if cell), default=0)
-    return cells[: max(full, width)]
-
-
-def _bare(unit: str) -> str:
-    return unit.strip("()[] ").lower()
-
-
-def _cells(line: str, between: str) -> list[str]:
-    """The cells of a line, without quotes."""
-    if between == " ":
-        return line.split()
-    cells = re.findall(rf'(?:^|{between})[ ]*("[^"]*"|[^{between}]*)', line)
-    return [cell.strip().strip('"').strip() for cell in cells]
-
-
-def _is_data(cells: list[str]) -> bool:
-    """Whether this is a row of numbers, possibly with gaps."""
-    full = [cell for cell in cells if cell]
-    numbers = sum(bool(_NUMBER.fullmatch(cell)) for cell in full)
-    return numbers > 0 and numbers >= len(full) / 2
-
-
-def _shape(cell: str) -> tuple[int, bool]:
-    """(the number of characters behind the decimal mark, whether there is an exponent)."""
-    _, *behind = re.split("[.,]", cell, maxsplit=1)
-    return len("".join(behind)), "e" in cell.lower()
-
-
-def _is_cut(rows: list[tuple[int, list[str]]]) -> bool:
-    """Whether the last cell of a text that does not end with a line is only the beginning of a number: all cells above
-    it have the same number of decimals, and it has fewer, or is no number."""
-    above, last = [cells[-1] for _, cells in rows[:-1] if cells[-1].lower() not in _GAP], rows[-1][1][-1]
-    shapes = {_shape(cell) for cell in above}
-    if len(above) < FEWEST or len(shapes) > 1 or last.lower() in _GAP:
-        return False
-    ((decimals, _),) = shapes
-    return not _NUMBER.fullmatch(last) or (_shape(last)[0] < decimals and not _shape(last)[1])
-
-
-def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: str, whole: bool = True) -> Table:
-    """whole: the text ends with the end of a line."""
-    notes: list[tuple[str, dict[str, object]]] = []
-    width = len(names or rows[0][1])
-    if names is None:
-        notes.append(("no-header", {"line": rows[0][0]}))
-        names = [str(i + 1) for i in range(width)]
-    if len(rows[-1][1]) < width and len(rows) > 1:
-        notes.append(("cut-short", {"line": rows[-1][0], "found": len(rows[-1][1]), "expected": width}))
-        rows = rows[:-1]
-    elif not whole and _is_cut(rows):
-        notes.append(("cut-cell", {"line": rows[-1][0], "text": rows[-1][1][-1][:40]}))
-        rows = rows[:-1]
-    for number, cells in rows:
-        # a gap at the end of a row may have lost its separator
-        if len(cells) not in (width, width - 1) or (len(cells) < width and between in ", "):
-            raise MeasuredError("width", line=number, found=len(cells), expected=width)
-        cells.extend([""] * (width - len(cells)))
-    if not FEWEST <= len(rows) <= MOST:
-        raise MeasuredError("rows", rows=len(rows), least=FEWEST, most=MOST)
-    _check_decimals(rows)
-    values = np.array([[_value(cell, number, name) for cell, name in zip(cells, names, strict=True)]
-                       for number, cells in rows])  # fmt: skip
-    lines = np.array([number for number, _ in rows])
-    columns = _columns(names, values)
-    time = next((i for i, column in enumerate(columns) if column.quantity == "time"), None)
-    if time is not None:
-        timed = np.isfinite(values[:, time])
-        if not timed.all():
-            notes.append(("no-time", {"count": int((~timed).sum()), "line": int(lines[~timed][0])}))
-        values, lines = values[timed], lines[timed]
-        again = lines[1:][np.diff(values[:, time]) == 0]
+def _noted(table: Table) -> Iterator[tuple[str, dict[str, object]]]:
+    """Rows without a time, those that repeat one, and gaps."""
+    lines, time = np.array(table.lines), next((each for each in table.columns if each.quantity == "time"), None)
+    timed = np.isfinite(time.values) if time else np.ones(len(lines), bool)
+    if not timed.all() and len(table.runs) < 2:
+        yield "no-time", {"count": int((~timed).sum()), "line": int(lines[~timed][0])}
+    lines = lines[timed]
+    if time:
+        again = lines[1:][np.diff(time.values[timed]) == 0]
         if again.size:
-            notes.append(("repeated", {"count": int(again.size), "line": int(again[0])}))
-    columns = _columns(names, values)
-    notes.extend(_gaps(columns, lines))
-    return Table(columns, tuple(map(int, lines)), tuple(notes))
-
-
-def _gaps(columns: tuple[Column, ...], lines: Array) -> Iterator[tuple[str, dict[str, object]]]:
-    for column in columns:
-        missing = ~np.isfinite(column.values)
+            yield "repeated", {"count": int(again.size), "line": int(again[0])}
+    for column in table.columns:
+        missing = ~np.isfinite(column.values[timed])
         if column.quantity and missing.any():
-            found: dict[str, object] = {
-                "name": column.name,
-                "count": int(missing.sum()),
-                "line": int(lines[missing][0]),
-            }
-            yield "gaps", found
+            yield "gaps", {"name": column.name, "count": int(missing.sum()), "line": int(lines[missing][0])}
 
 
-def _check_decimals(rows: list[tuple[int, list[str]]]) -> None:
-    """Raises MeasuredError if some numbers have a decimal comma and others a point."""
-    first = ""
-    for number, cells in rows:
-        for cell in cells:
-            mark = next((mark for mark in ".," if mark in cell), "")
-            if mark and _NUMBER.fullmatch(cell):
-                first = first or mark
-                if mark != first:
-                    raise MeasuredError("decimals", line=number, text=cell, mark=first)
+def _chosen(columns: tuple[Column, ...], roles: Roles, run: str, view: str) -> tuple[Column, ...]:
+    """The columns, each as what its name says; of several with the same quantity, the one that says its unit."""
+    quantities: dict[int, str] = {}
+    said = [understood(column.name) for column in columns]
+    ranks: dict[str, tuple[bool, bool, int]] = {}
+    for i, (quantity, unit, _) in enumerate(said):
+        elsewhere = i in roles or without_run(columns[i].name)[1] not in ("", run)
+        if not quantity or elsewhere or not np.isfinite(columns[i].values).any():
+            continue
+        counted = likely(quantity, columns[i].values, columns[i].name) != "frames"
+        rank = unit in UNITS[quantity], counted, -i
+        if rank > ranks.get(quantity, (False, False, -len(columns))):
+            quantities = {at: each for at, each in quantities.items() if each != quantity} | {i: quantity}
+            ranks[quantity] = rank
+    for i, (side, above) in roles.items():
+        quantity = above if view == "above" else side
+        if quantity not in quantities.values() and np.isfinite(columns[i].values).any():
+            quantities[i] = quantity
+    if _is_logger([column.name for column in columns]):  # its z is the axis through the phone's screen
+        z = next((i for i, column in enumerate(columns) if column.name.strip().lower() == "z"), None)
+        quantities = {i: each for i, each in quantities.items() if each == "time"} | ({} if z is None else {z: "spin"})
+    return tuple(taken_as(column, quantities.get(i, "")) for i, column in enumerate(columns))
 
 
-def _value(cell: str, line: int, name: str) -> float:
-    if cell.lower() in _GAP:
-        return math.nan
-    value = float(cell.replace(",", ".")) if _NUMBER.fullmatch(cell) else math.inf
-    if not math.isfinite(value):
-        raise MeasuredError("not-a-number", line=line, name=name[:40], text=cell[:40])
-    return value
-
-
-def _columns(names: list[str], values: Array) -> tuple[Column, ...]:
-    columns: list[Column] = []
-    taken = {""}
-    for i, name in enumerate(names):
-        quantity, _, error = _understood(name)
-        if quantity in taken or not np.isfinite(values[:, i]).any():
-            quantity = ""
-        taken.add(quantity)
-        columns.append(taken_as(Column(name, "", "", False, error, values[:, i]), quantity))
-    return tuple(columns)
+def _is_logger(names: list[str]) -> bool:
+    """Whether this is the gyroscope's table of Sensor Logger: time, seconds_elapsed, z, y, x."""
+    return {"seconds_elapsed", "x", "y", "z"} <= {name.strip().lower() for name in names}
 
 
 def taken_as(column: Column, quantity: str) -> Column:
     """The column as another quantity: in the unit that its name says, or else in a likely one."""
     if not quantity:
         return replace(column, quantity="", unit="", guessed=False)
-    _, unit, _ = _understood(column.name)
+    _, unit, _ = understood(column.name)
     guessed = unit not in UNITS[quantity]
-    unit = _likely(quantity, column.values, column.name) if guessed else unit
+    unit = likely(quantity, column.values, column.name) if guessed else unit
     return replace(column, quantity=quantity, unit=unit, guessed=guessed)
-
-
-def _understood(name: str) -> tuple[str, str, float | None]:
-    """(quantity, unit, error) from a column's name; "" or None for what it does not say."""
-    name, _, error = name.partition("±")
-    found = _NUMBER.fullmatch(error.strip())
-    parts = [*re.finditer(r"[(\[]([^)\]]*)[)\]]", name), *_UNIT_LAST.finditer(name)]
-    unit = next((part for part in parts if part[1].strip().lower() in _UNIT), None)
-    known = _UNIT[unit[1].strip().lower()] if unit else ""
-    called = name[: unit.start()] + name[unit.end() :] if unit else name
-    bare = re.sub(r"[^a-zäöüßθφϕω0-9]", "", called.lower())
-    return _QUANTITY.get(bare, ""), known, float(error.strip().replace(",", ".")) if found else None
-
-
-def _likely(quantity: str, values: Array, name: str) -> str:
-    """The most likely unit of a column that does not say it."""
-    largest = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
-    if quantity == "time":
-        if re.match("frame|bild", name.lower()):
-            return "frames"
-        steps = np.diff(values[np.isfinite(values)])
-        return "ms" if steps.size and float(np.median(steps)) > SLOWEST else "s"
-    if UNITS[quantity] is ANGLES:
-        return "rad" if largest <= math.pi + 0.2 else "deg"
-    if UNITS[quantity] is RATES:
-        return next(unit for unit, most in USUAL.items() if largest <= most)
-    return "m" if largest < 2 else "mm"
 
 
 def line_in_file(line: int, each: int) -> int:

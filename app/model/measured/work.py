@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 
+from app.model.measured.cells import MeasuredError
 from app.model.measured.data import Data
 from app.model.measured.fit import Fit, fit
 from app.model.measured.kept import Kept, kept
 from app.model.measured.motion import Model, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import Shown, shown
-from app.model.measured.table import MeasuredError
 from tippe_core import Scales, Shape, Top
 
 LOOSE = {"body": ("a", "I1", "I3"), "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}

@@ -7,7 +7,8 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.measured.table import UNITS, taken_as
+from app.model.measured.names import UNITS
+from app.model.measured.table import taken_as
 from app.text import say, written
 from app.widgets.cards import beside, field, flow, note, words
 from app.widgets.controls import typed_number

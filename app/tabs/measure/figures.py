@@ -24,7 +24,7 @@ from app.text import say
 from app.widgets.cards import words
 from app.widgets.plots import draw, in_language, on_pointer, plain
 
-SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
+SHOWN = dict.fromkeys(("tilt", "line", "azimuth"), 180 / np.pi) | dict.fromkeys(("spin", "precession"), 0.5 / np.pi)
 """{quantity: the factor from the unit of the data to that of the axis}; for lengths 1000, to mm."""
 COLOUR = {"spin": "omega", "precession": "omega", "azimuth": "theta"}
 HEIGHT, SMALL, REST, LEFT = 250, 180, 56, 52  # px; SMALL if there are more than two figures

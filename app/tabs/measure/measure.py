@@ -1,10 +1,12 @@
 """The tab Measure: measurements of a filmed top beside fitted rolling and sliding motions."""
 
+from dataclasses import replace
+
 import panel as pn
 import panel_material_ui as pmui
 
-from app.borrowed import at_once
 from app.model.bodies import body, outline
+from app.model.measured.cells import MeasuredError
 from app.model.measured.data import settled
 from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
 from app.model.measured.film import Film, opened, unpacked, written
@@ -12,30 +14,22 @@ from app.model.measured.kept import kept
 from app.model.measured.made import LAW, found_of_example, is_stored
 from app.model.measured.remembered import said_of
 from app.model.measured.shown import placed
-from app.model.measured.table import LARGEST, MeasuredError, read
+from app.model.measured.table import read
 from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, part_of
 from app.model.runs import Run, Runs, Stopped
-from app.state import asked
+from app.tabs.measure.asks import Asks
 from app.tabs.measure.columns import Columns
 from app.tabs.measure.figures import Pictures, constants, part_of_time
-from app.tabs.measure.file import Filmed, MeasuredFile
+from app.tabs.measure.file import Brought, Filmed
 from app.tabs.measure.home import Home
-from app.tabs.measure.recipe import recipe
+from app.tabs.measure.places import head, in_places
+from app.tabs.measure.recipe import recipes
 from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words, source_words
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
-from app.widgets.download import Download
 from tippe_core import Top, TopError
 
-PLACES = """
-:host { display: grid; gap: 12px 24px; padding: 12px 24px 16px; align-items: start; box-sizing: border-box;
-  /* max-content: Panel's columns may shrink to nothing, and an auto row would let them where the window is short */
-  grid-template: "over found" max-content "table found" minmax(max-content, 1fr) / minmax(0, 1fr) minmax(300px, 28.6%) }
-.over { grid-area: over } .table { grid-area: table } .found { grid-area: found; min-width: 0 }
-@media (max-width: 800px) { :host { padding: 12px 16px 16px;
-  grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
-"""
 FIRST = EXAMPLES[0]
 
 
@@ -50,12 +44,11 @@ class Measure:
         self._read, self._of_file, self._silent, self.filmed = None, None, False, Filmed()
         self._found, self._kept, self._thinned, self._notes = None, {}, 1, ""
         self._saved = ()  # the fits of a film that is being opened
-        self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
-        at_once(self.file, "table")
-        self.file.param.watch(asked.heard(self._brought), "table")
-        self.stage, self.pictures = film_stage(), Pictures(self._pulled)
-        self.columns = Columns(self._corrected, self._wrong)
         self.said, self.about = words(), words()
+        self.file = Brought(self._runs, self.take, self._not_taken, self.said).file
+        self.asks = Asks(self._answered)
+        self.stage, self.pictures = film_stage(), Pictures(self._pulled)
+        self.columns = Columns(self._by_hand, self._wrong)
         self.constants, self.over, self.below = (pn.Column(sizing_mode="stretch_width", margin=0) for _ in range(3))
         self._make_controls()
         self.found = words(note(say("measure.nothing_yet")), style=TABLE)
@@ -75,10 +68,11 @@ class Measure:
         self.cancel = pmui.Button(label=say("measure.cancel"), disabled=True, **BUTTON)
         on_click(self.start, self.compute)
         on_click(self.cancel, lambda event: self._run and self._run.stop())
+        self.leave = pmui.Button(label=say("measure.leave"), visible=False, **BUTTON)
+        on_click(self.leave, self._leave)
         self.take_home = pmui.Button(label=say("measure.take_home"), disabled=True, **BUTTON)
         on_click(self.take_home, lambda event: self.home.view.param.update(visible=not self.home.view.visible))
-        self.recipe = Download(self._runs, tuple, lambda: recipe().encode(), label=say("measure.recipe"),
-                               filename="film-a-top.html")  # fmt: skip
+        self.recipes = recipes(self._runs)
 
     @property
     def view(self):
@@ -94,15 +88,13 @@ class Measure:
             self.take_example(FIRST)
             self.said.object = wrong or self.said.object
         parts = {
-            "over": [self.said, self.over, self.pictures.view, self.part],
-            "found": [self.stage, self.found, self.file, flow(self.take_home, self.recipe), self.home.view,
-                      flow(*examples), words(note(say("measure.private"))), self.about, flow(self.law), self.loose,
-                      flow(self.start, self.cancel)],
-            "table": [self.below, _head("constants"), self.constants],
+            "over": [self.said, self.over, self.asks.view, self.pictures.view, self.part],
+            "found": [self.stage, self.found, self.leave, self.file, flow(self.take_home, *self.recipes),
+                      self.home.view, flow(*examples), words(note(say("measure.private"))), self.about,
+                      flow(self.law), self.loose, flow(self.start, self.cancel)],
+            "table": [self.below, head("constants"), self.constants],
         }  # fmt: skip
-        sides = [pn.Column(*part, css_classes=[place], sizing_mode="stretch_width", margin=0)
-                 for place, part in parts.items()]  # fmt: skip
-        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, stylesheets=[PLACES])
+        return in_places(parts)
 
     def show(self, scene):
         """From now on films are of this scene's top; a fit that was made stays."""
@@ -148,13 +140,13 @@ class Measure:
     def _wrong(self, sentence):
         self.said.object = alert(sentence)
 
-    def _brought(self, event):
-        kinds = asked.text, asked.number, asked.number, asked.text, asked.number
-        text, each, _, name, size = asked.parts(event.new, *kinds)
-        if each < 1:
-            self._not_taken(MeasuredError("too-large", size=size / 1000, most=LARGEST / 1000))
-        else:
-            self.take(text, int(each), name=name)
+    def _answered(self, table):
+        self.columns.show(table)
+        self._place_columns(self.below if self._corrected(table) else self.over)
+
+    def _by_hand(self, table):
+        self.asks.remember(table)
+        self._corrected(table)
 
     def take_example(self, name):
         """Loads one of EXAMPLES, with default settings."""
@@ -177,6 +169,7 @@ class Measure:
         self._thinned, self._example, self._read, self._of_file, self._name = each, example, table, film, name
         self._say_top()
         self.filmed.film = link
+        table = self.asks.show(table, anew=bool(film or example))
         self.columns.show(table)
         self._saved = film.fits if film else ()
         is_ready = self._corrected(table, film and film.part)
@@ -188,7 +181,7 @@ class Measure:
     def _place_columns(self, place):
         """Shows the columns there: where they are asked for, at the top, as long as this table is there."""
         self.over.objects = self.below.objects = []
-        place.objects = [self.columns.view] if place is self.over else [_head("columns"), self.columns.view]
+        place.objects = [self.columns.view] if place is self.over else [head("columns"), self.columns.view]
 
     def _not_taken(self, error, each=1):
         self._refused(error, each)
@@ -201,7 +194,7 @@ class Measure:
         for run in (self._guess, self._run):
             if run:
                 run.forget()
-        self._found, self._kept = None, {}
+        self._found, self._kept, self.leave.visible = None, {}, False
         with pn.io.hold():  # Bokeh refuses changes of its figures without the document's lock
             self.found.object, self.constants.objects = "", []
             self.home.clear()
@@ -258,6 +251,7 @@ class Measure:
         if self._data is None or self._silent:
             return
         self._found, self._kept, self._part = None, {}, tuple(map(float, self.part.value))
+        self.leave.visible = False
         self.home.clear()
         self.take_home.disabled = not (self._is_at_hand and self._runs.beside)
         try:
@@ -330,7 +324,7 @@ class Measure:
                 raise result
             return
         self._found = result
-        self.found.object = result_words(result, self._again)
+        self.found.object, self.leave.visible = result_words(result, self._again), bool(result.better.far)
         self.pictures.show(result.motion, result.better)
         show_film(self.stage, result.motion, self._body[3])
         self.take_home.disabled = False
@@ -338,13 +332,18 @@ class Measure:
         data = self._data.between(*self._part)
         self.home.show(self._film(), data, result.fits, self._loose, self._part, says, result.kept)
 
+    def _leave(self, event):
+        """Leaves out the values that are far off the fit, and fits the others."""
+        if self._found:
+            data, far = self._found.motion.data, self._found.better.far
+            self._data = self._data.without((name, data.series[name].t[i]) for name, at in far.items() for i in at)
+            self._table = replace(self._table)  # no longer a whole example
+            self._begin()
+            self.compute()
+
     def _film(self):
         """The text of the film with the present fit."""
         top, scales, shape, _ = self._body
         film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape,
                     tuple(said_of(each) for each in self._found.fits) if self._found else ())  # fmt: skip
         return written(film, self._data)
-
-
-def _head(name):
-    return words(f"<h2>{say(f'measure.{name}_head')}</h2>{note(say(f'measure.{name}_says'))}", margin=(16, 0, 4, 0))

@@ -10,6 +10,7 @@ from app.text import listed, say, written
 from app.widgets.cards import note
 
 SHOWN = {"tilt": 180 / np.pi}
+NAMED = 8  # times of values that are far off
 OF_MODELS = ("", *[" class=n"] * 4, "")
 TABLE = """
 table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
@@ -41,6 +42,7 @@ def result_words(result, again):
     """A Found in words and tables. again: it was saved with a film, and not fitted anew."""
     saved = note(say("measure.fit_of_film")) if again else ""
     found = found_words(*result.fits, result.kept)
+    found += far_words(result.better, result.motion.data)
     return found + saved + numbers_table(result.better) + models_table(*result.fits)
 
 
@@ -49,8 +51,24 @@ def found_words(rolling, sliding, kept):
     found = verdict(rolling, sliding)
     other = {"rolled": sliding, "slipped": rolling}.get(found)
     why = "out" if other is not None and other.refused else "why"
-    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.{why}')}</p>"
+    start = say(f"measure.start.{'push' if 'tilt_rate' in sliding.model.free else 'still'}")
+    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.{why}', start=start)}</p>"
             + kept_words(kept))  # fmt: skip
+
+
+def far_words(fit, data):
+    """Which values are far off a Fit, and when; and whether all are nearer than chance would have them."""
+    told = []
+    if fit.far:
+        times = []
+        for name, at in fit.far.items():
+            when = ", ".join(written(data.series[name].t[i], ".3f") for i in at[:NAMED]) + " …" * (len(at) > NAMED)
+            times.append(f"{say(f'measure.quantities.{name}')}: {when}")
+        count = sum(map(len, fit.far.values()))
+        told.append(say("measure.far", count=count, all=len(fit.residuals.row), times="; ".join(times)))
+    if fit.too_good:
+        told.append(say("measure.too_good", times=fit.too_good))
+    return "".join(f"<p>{each}</p>" for each in told)
 
 
 def source_words(example, of_file):
@@ -91,6 +109,8 @@ def numbers_table(fit):
         marks = [say("measure.with", name=other, correlation=r) for other, r in _partners(fit, name)]
         if name in fit.unknown:
             marks.insert(0, say("measure.unknown"))
+        if name in fit.bounded:
+            marks.insert(0, say("measure.bound", bound=written(fit.bounded[name] * size, "g")))
         if name in ("spin", "across") and not fit.handed:
             marks.insert(0, say("measure.mirrored"))
         error = f"± {error}" if error[0] not in "+∞" else error

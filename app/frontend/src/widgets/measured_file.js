@@ -1,5 +1,5 @@
 // A table that a person chooses, drops anywhere on the page, or pastes. It is read here, and rows are left out if it is
-// too long; a saved film is a short text and is kept whole.
+// too long; a saved film is a short text and is kept whole. A zip, a workbook or a file of Tracker's own is sent whole.
 import { colours } from "../colours.js";
 import { fill } from "../data.js";
 
@@ -15,13 +15,15 @@ const FRAME = `<style>
   .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.chosen}26; pointer-events: none;
     border: 3px dashed var(--focus, ${colours.chosen}); box-sizing: border-box; font: 600 calc(20px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink, #1b2430) }
   .over b { background: var(--card, #fff); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }</style>
-  <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,text/*"></label><textarea rows="1"></textarea>
+  <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,.zip,.xlsx,.xlsm,.xls,.ods,.trk,.trz,text/*"></label><textarea rows="1"></textarea>
     <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
 const ABOVE = 3; // lines above the values that a table may have
 const SPARE = 1.05; // margin, because lines differ in length
 const MORE = 1.2; // and where that is too little, how many times as many rows are left out in each attempt
 const CHUNK = 1 << 22; // bytes read at a time
 const LOOK = 4096; // bytes from which the kind of a file is recognised
+const PIECE = 144 * 1024; // bytes of a file that is sent whole, at a time: in base64 less than the server accepts
+const PACKED = ["PK\x03\x04", "\xd0\xcf\x11\xe0"], XML = /^(\xef\xbb\xbf)?\s*<(\?xml|object)/; // how such a file begins
 const LETTERS = 200; // of a file's name
 const LONG = /(\d[.,]\d{7})\d+/g; // more digits than a film can have
 
@@ -101,6 +103,29 @@ export async function readFile(file, limits, reached) {
   return thinned(kept.join("\n"), limits, numbers, each);
 }
 
+/** @param {Uint8Array} bytes @returns {string} each byte as a letter */
+const letters = (bytes) => Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
+
+// Whether a file is no text, and has to be opened.
+/** @param {Blob} file @returns {Promise<boolean>} */
+export async function isPacked(file) {
+  const start = letters(new Uint8Array(await file.slice(0, 64).arrayBuffer()));
+  return PACKED.some((each) => start.startsWith(each)) || XML.test(start);
+}
+
+// The pieces of a file: of one that is too large a single empty one.
+/**
+ * @param {Blob} file @param {number} most bytes
+ * @returns {AsyncGenerator<[text: string, at: number, count: number]>} in base64
+ */
+export async function* piecesOf(file, most) {
+  const count = file.size > most ? 1 : Math.ceil(file.size / PIECE);
+  for (let at = 0; at < count; at += 1) {
+    const bytes = file.size > most ? new ArrayBuffer(0) : await file.slice(at * PIECE, (at + 1) * PIECE).arrayBuffer();
+    yield [btoa(letters(new Uint8Array(bytes))), at, count];
+  }
+}
+
 /** @param {Rendering<MeasuredFileModel>} rendering */
 export function renderMeasuredFile({ model, el, view }) {
   view.tippe?.dispose();
@@ -114,7 +139,7 @@ export function renderMeasuredFile({ model, el, view }) {
   input.setAttribute("aria-label", texts.choose);
   area.setAttribute("aria-label", texts.paste);
   area.placeholder = texts.paste;
-  let count = model.table[2] ?? 0;
+  let count = Math.max(model.table[2] ?? 0, model.piece[3] ?? 0);
   /** @param {Kept} kept @param {number} size of all that was brought, in bytes @param {string} [name] */
   const send = ([text, each], size, name = "") => {
     count += 1;
@@ -126,7 +151,13 @@ export function renderMeasuredFile({ model, el, view }) {
     if (!file) return;
     try {
       const reached = (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }));
-      send(await readFile(file, model, reached), file.size, file.name);
+      if (await isPacked(file)) {
+        count += 1;
+        for await (const [text, at, of] of piecesOf(file, model.packed)) {
+          model.piece = [text, at, of, count, file.name.slice(0, LETTERS), file.size];
+          reached((at + 1) / of);
+        }
+      } else send(await readFile(file, model, reached), file.size, file.name);
       says.textContent = "";
     } catch {
       says.textContent = fill(texts.unreadable, { name: file.name });
