@@ -181,6 +181,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
 
     page = save("One page to mail", "HTML")
     assert page.stat().st_size < 3_000_000
+    visit.page.close()  # otherwise both are drawn all the time
     context = chromium.new_context(offline=True)
     mailed, asked = context.new_page(), []
     mailed.on("request", lambda request: asked.append(request.url))
