@@ -1,6 +1,8 @@
 """Servers for tests: `python -m app` with some settings, another command that serves the page, a Redis."""
 
+import multiprocessing
 import os
+import runpy
 import socket
 import subprocess
 import sys
@@ -42,15 +44,61 @@ def end(process):
         process.kill()
 
 
+ROOT = Path(__file__).parent.parent
+IMPORTED = ["app.page.page", "app.server.server", "app.model.votes.desk"]  # what takes a server seconds
+
+
+class Forked:
+    """`python -m app`, forked from a process that has imported all of it: what Popen has, of such a process."""
+
+    def __init__(self, arguments, environment, output):
+        if multiprocessing.get_start_method(allow_none=True) != "forkserver":
+            multiprocessing.set_start_method("forkserver", force=True)
+            multiprocessing.set_forkserver_preload(IMPORTED)
+        self._process = multiprocessing.Process(target=serve, args=(arguments, environment, str(output)))
+        self._process.start()
+        self.pid, self.terminate, self.kill = self._process.pid, self._process.terminate, self._process.kill
+
+    @property
+    def returncode(self):
+        return self._process.exitcode
+
+    poll = returncode.fget
+
+    def send_signal(self, how):
+        os.kill(self.pid, how)
+
+    def wait(self, seconds=None):
+        self._process.join(seconds)
+        if self.returncode is None:
+            raise subprocess.TimeoutExpired("python -m app", seconds)
+        return self.returncode
+
+
+def serve(arguments, environment, output):
+    """Runs `python -m app` in this process."""
+    with open(output, "a") as file:
+        for descriptor in (1, 2):
+            os.dup2(file.fileno(), descriptor)
+    os.chdir(ROOT)
+    os.environ.clear()
+    os.environ.update(environment)
+    sys.argv = ["app", *arguments]
+    runpy.run_module("app", run_name="__main__", alter_sys=True)
+
+
 @contextmanager
 def served(output, wait=True, before=(), arguments=(), **settings):
     """Runs `python -m app` with these settings until the end of the block. output: the file for its log. wait: begin
     the block when the server answers. before: a command that runs the rest of its arguments."""
     settings = {"port": free_port(), "address": "127.0.0.1"} | settings
     environment = {**os.environ, **{f"TIPPE_{name.upper()}": str(value) for name, value in settings.items()}}
-    with output.open("a") as file:
-        process = subprocess.Popen([*before, sys.executable, "-m", "app", *arguments], env=environment, stdout=file,
-                                   cwd=Path(__file__).parent.parent, stderr=subprocess.STDOUT)  # fmt: skip
+    if before or os.name != "posix":
+        with output.open("a") as file:
+            process = subprocess.Popen([*before, sys.executable, "-m", "app", *arguments], env=environment, stdout=file,
+                                       cwd=ROOT, stderr=subprocess.STDOUT)  # fmt: skip
+    else:
+        process = Forked(arguments, environment, output)
     root = f"http://127.0.0.1:{settings['port']}"
     try:
         if wait:

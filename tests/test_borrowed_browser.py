@@ -151,8 +151,8 @@ def test_a_figure_makes_room_for_its_labels_in_itself(chromium):
 def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
     """2. The bundle runs once for all Panel components and for our own; Panel's own way would run it twice."""
     page = chromium.new_page()
-    page.goto(f"{server}?v=1&tab=roll")
-    page.wait_for_selector(".bar .play")
+    page.goto(f"{server}?")
+    page.locator("#first").wait_for(state="detached")
     same = """async (way) => {
       const links = [...document.querySelectorAll("link[rel=modulepreload]")].map((link) => link.href);
       const href = links.find((address) => address.includes("tippe.js"));

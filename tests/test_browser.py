@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from axe import DARK, LIGHT, LOOK, check
 from visiting import Visit, wait
 
 from app.model.scene import solve
@@ -18,19 +19,26 @@ PLACES = """() => [...Bokeh.documents[0]._all_models.values()].filter((model) =>
     .map(({x, y, width, height}) => [x, y, width, height])"""
 
 
-def test_something_moves_at_once_and_playing_sends_nothing(server, chromium):
-    with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
-        visit = Visit(context.new_page(), server)
-        assert visit.page.title() == "Tippe top explorer"
-        start = visit.page.evaluate("__tippe.top3d.t")
-        visit.page.wait_for_function("t => __tippe.top3d.t != t && __tippe.top3d.playing", arg=start)
-        for _ in range(10):  # a page that has just loaded still sends its size to the server
-            visit.sent.clear()
-            pictures = visit.page.evaluate("__tippe.top3d.pictures")
-            visit.page.wait_for_function("n => __tippe.top3d.pictures > n + 5", arg=pictures)
-            if not visit.sent:
-                return
-        assert not visit.sent
+COLOURS = """() => {
+    const all = (root) => [...root.querySelectorAll("*")]
+        .flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
+    const kinds = "[role=tab][aria-selected=false], .MuiToggleButton-root:not(.Mui-selected), label"
+    const widgets = all(document).filter((e) => e.matches(kinds) && e.offsetParent)
+    return widgets.map((e) => getComputedStyle(e).color.match(/[\\d.]+/g).slice(0, 3).map(Number))
+        .map(([r, g, b]) => r + g + b)
+}"""
+
+
+def the_widgets_go_dark_at_once(page):
+    """In the same frame as the page; they are not created again one by one."""
+    page.wait_for_function("Bokeh.documents[0].is_idle")
+    quiet = 0x5B + 0x68 + 0x75  # the colour --faint of the other tabs in the head
+    light = page.evaluate(COLOURS)
+    page.evaluate(LOOK, DARK)
+    dark = page.evaluate(COLOURS)
+    page.evaluate(LOOK, LIGHT)
+    assert len(light) == len(dark) > 10
+    assert max(light) <= quiet < 450 < min(dark)
 
 
 def the_top_and_the_lines_over_time_go_with_the_clock(visit):
@@ -108,29 +116,45 @@ def after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
 
 def test_what_is_shown_is_tippe_cores(visit):
     visit.pause()
+    the_widgets_go_dark_at_once(visit.page)
+    check(visit.page, "roll")
     the_top_and_the_lines_over_time_go_with_the_clock(visit)
     a_bad_value_is_said_beside_its_control(visit)
     nothing_moves_while_a_slider_is_dragged(visit)
     after_a_slider_moved_the_data_on_display_are_tippe_cores(visit)
 
 
-def test_what_is_out_of_sight_is_drawn_when_it_comes_into_sight(chromium, server):
+def test_it_moves_at_once_sends_nothing_and_what_is_out_of_sight_is_drawn_when_it_comes_into_sight(chromium, server):
     """Fig. 5 is visible from the start, with all controls of the motion."""
-    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
-    visit = Visit(page, server, near=True)
-    shown = "m => m.near === false"
-    page.wait_for_function(f"[...Bokeh.documents[0]._all_models.values()].filter({shown}).length == 3")
-    for seen in ("canvas[aria-label^='Figure 5']", "[data-figure=plane]", *(
-            f"input[data-input={name}]" for name in ("K_J", "K_R", "energy", "mu_s"))):  # fmt: skip
-        box = page.locator(seen).first.bounding_box()
-        assert box["y"] + min(box["height"], 30) < 900, seen
-    field = page.locator(FIELDS).nth(K_J_FIELD)
-    field.fill("6.7")
-    field.press("Enter")
-    expected = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
-    page.wait_for_function("n => __tippe.top3d.count == n", arg=len(expected.trajectory.t))
-    page.wait_for_function("/KJ=6.7/.test(location.search)")  # everything is at rest
-    assert visit.column("constants", 0, "K_J")[0] == pytest.approx(7.0)
-    page.locator("[data-figure=constants]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
-    visit.until_column("constants", 0, "K_J", expected.K_J[0])
-    page.close()
+    with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
+        visit = Visit(context.new_page(), server, near=True)
+        page = visit.page
+        assert page.title() == "Tippe top explorer"
+        page.wait_for_function(
+            "t => __tippe.top3d.t != t && __tippe.top3d.playing", arg=page.evaluate("__tippe.top3d.t")
+        )
+        wait(page, lambda: plays_without_a_word(visit))  # a page that has just loaded still sends its size
+        visit.pause()
+        shown = "m => m.near === false"
+        page.wait_for_function(f"[...Bokeh.documents[0]._all_models.values()].filter({shown}).length == 3")
+        for seen in ("canvas[aria-label^='Figure 5']", "[data-figure=plane]", *(
+                f"input[data-input={name}]" for name in ("K_J", "K_R", "energy", "mu_s"))):  # fmt: skip
+            box = page.locator(seen).first.bounding_box()
+            assert box["y"] + min(box["height"], 30) < 900, seen
+        field = page.locator(FIELDS).nth(K_J_FIELD)
+        field.fill("6.7")
+        field.press("Enter")
+        expected = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
+        page.wait_for_function("n => __tippe.top3d.count == n", arg=len(expected.trajectory.t))
+        page.wait_for_function("/KJ=6.7/.test(location.search)")  # everything is at rest
+        assert visit.column("constants", 0, "K_J")[0] == pytest.approx(7.0)
+        page.locator("[data-figure=constants]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
+        visit.until_column("constants", 0, "K_J", expected.K_J[0])
+
+
+def plays_without_a_word(visit):
+    """Whether the page has sent and heard nothing for five pictures."""
+    visit.sent.clear()
+    pictures = visit.page.evaluate("__tippe.top3d.pictures")
+    visit.page.wait_for_function("n => __tippe.top3d.pictures > n + 5", arg=pictures)
+    return not visit.sent

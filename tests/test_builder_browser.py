@@ -5,6 +5,7 @@ from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
+from axe import DARK, check
 from playwright.sync_api import expect
 from visiting import Visit, texts, wait
 
@@ -154,3 +155,7 @@ def test_a_top_is_built_saved_and_loaded(server, chromium, tmp_path, page_errors
         a_hole_and_a_disc_are_chosen_and_dragged_and_are_in_the_link(page)
         a_file_far_too_large_stays_where_it_is(bench, tmp_path / "top.json")
         a_bad_file_changes_nothing_and_one_that_was_saved_is_loaded(page, text)
+        check(page, "build", DARK)
+        page.get_by_role("combobox", name="Presets").click()
+        page.get_by_role("listbox").wait_for()
+        check(page, "a list of build", DARK)

@@ -53,7 +53,7 @@ def has_come_back(page, spin):
 @pytest.fixture
 def page(chromium, page_errors):
     page_errors.allow(f"{LOST_SERVER}|Failed to load Bokeh|Error rendering Bokeh items")
-    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
     yield page
     page.close()
 
@@ -69,6 +69,7 @@ def goes_on(page):
 @pytest.mark.served
 def test_what_is_taken_from_a_page_comes_back_with_all_that_was_set(page, tmp_path):
     """Its graphics, and then its server, which before refuses nothing of what the page sends."""
+    page.emulate_media(reduced_motion="no-preference")  # it must go on
     port = free_port()
     with served(tmp_path / "log", port=port) as server:
         page.goto(f"{server.url}?tab=build-a-top")

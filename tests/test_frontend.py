@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 from components import *  # noqa: F403
+from PIL import Image
 
 from app.bundle import Bundled, pack
+from app.share.parts import Photo
 from app.widgets.controls import Control
 from app.widgets.surface3d import Surface3D
 from app.widgets.top3d import Top3D, pack_frames
@@ -197,16 +199,56 @@ HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
     return kind.startsWith("webgl") ? null : real.call(this, kind, ...more) }"""
 
 
-def test_tops_of_one_clock_play_as_one_also_where_they_are_drawn_flat(alone, page_errors):
-    """Each shows its own motion at the same time: playing one moves the others along."""
+@pytest.fixture
+def flat(alone, page_errors):
+    """flat(**like) gives an Alone in a browser without WebGL."""
     page_errors.allow("WebGL")
-    found = alone(reduced_motion="no-preference")
-    found.page.add_init_script(NO_WEBGL)
-    found.page.reload()
-    found.page.wait_for_function("window.ready")
+
+    def open_(**like):
+        found = alone(**like)
+        found.page.evaluate(f"() => {{ {NO_WEBGL} }}")
+        return found
+
+    return open_
+
+
+FLAT = "p:text('no WebGL, so the top is drawn flat')"
+
+
+def test_a_flat_top_goes_with_the_clock_and_is_saved(flat):
+    """It begins at the time of a link; its buttons, and a figure that seeks."""
+    motion, found = frames(), flat()
+    top = top_of(motion[0], time=float(T[23]))
+    page = found.show(top, Photo())
+    page.locator(FLAT).wait_for()
+
+    def until_at(index):
+        page.wait_for_function("index => __tippe.flat.index == index && __tippe.flat.pictures > 0", arg=index)
+
+    until_at(23)
+    page.get_by_label("One frame forward").click()
+    found.until(lambda: abs(top.time - T[24]) < 1e-6)
+    page.evaluate("t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", float(T[9]))
+    until_at(9)
+    assert page.evaluate("__tippe.flat.verdict") == "rolls"
+    page.get_by_label("Play").click()
+    page.wait_for_function("__tippe.flat.playing && __tippe.flat.index > 10")
+    page.get_by_label("Pause").click()
+    found.until(lambda: not top.playing and np.abs(T - top.time).min() < 1e-6)
+    with page.expect_download() as download:
+        page.get_by_role("button", name="PNG").click()
+    picture = np.array(Image.open(download.value.path()).convert("RGB"))
+    assert picture.shape[1] == 2400
+    body = (picture == (0xE3, 0xB9, 0x81)).all(axis=2)  # the colour of its wood
+    assert 0.01 < body.mean() < 0.5
+
+
+def test_tops_of_one_clock_play_as_one_also_where_they_are_drawn_flat(flat):
+    """Each shows its own motion at the same time: playing one moves the others along."""
+    found = flat(reduced_motion="no-preference")
     tops = [top_of(frames(t=T * (1 + i / 9))[0], clock="planes", height=250) for i in range(3)]
     page = found.show(*tops)
-    assert page.locator("p:text('no WebGL, so the top is drawn flat')").count() == 3
+    assert page.locator(FLAT).count() == 3
     times = "() => __tippe.tops('planes').filter((top) => top.count > 1).map((top) => top.t)"
     page.wait_for_function(f"() => ({times})().length == 3")
     page.get_by_label("Play").first.click()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import panel
 import pytest
+from axe import DARK, DARK_LARGE, check, violations
 from components import *  # noqa: F403
 from playwright.sync_api import expect
 from visiting import Visit
@@ -180,10 +181,20 @@ def test_a_lesson_goes_on_where_nothing_can_be_sent(learn):
 
 
 def presented(page):
-    """Goes from the lesson to the big screen by its key, like a teacher who has just chosen the tab."""
+    """Goes from the lesson to the big screen through what is for teachers; axe-core sees all that there is."""
     page.locator(".crumbs button").nth(1).wait_for()
-    page.get_by_role("tab", name="Learn", exact=True).focus()
-    page.keyboard.press("p")
+    check(page, "learn", DARK)
+    page.get_by_role("button", name="The derivation", exact=True).click()
+    page.locator(".line .sides b").first.wait_for()
+    page.locator(".line button:visible").first.click()
+    check(page, "the derivation")
+    page.get_by_role("button", name="History", exact=True).click()
+    page.locator("ol:visible").first.wait_for()
+    check(page, "the history")
+    page.get_by_role("button", name="For teachers", exact=True).click()
+    page.get_by_role("button", name=say("teach.vote.close")).wait_for()
+    check(page, "for teachers")
+    page.get_by_role("button", name="Present to a class (P)", exact=True).click()
     page.locator(".lesson.present .board").wait_for()
 
 
@@ -244,6 +255,7 @@ def test_a_class_with_two_phones_that_goes_on_where_the_network_does_not(chromiu
     page.locator(".count").get_by_text(say("teach.room.nobody")).wait_for()
     assert page.locator(".qr svg").bounding_box()["height"] > 300  # it must be readable across a room
     assert page.locator(".warning").inner_text() == say("teach.room.local")
+    check(page, "the big screen", DARK_LARGE)
     address = f"http://{page.locator('.link-said').inner_text()}"
     students = [opened(phone.new_page(), f"{address}&lang={each}", 390, 844)
                 for phone, each in zip(phones, languages, strict=True)]  # fmt: skip
@@ -252,6 +264,7 @@ def test_a_class_with_two_phones_that_goes_on_where_the_network_does_not(chromiu
         phone.get_by_role("radio", name=words).check(force=True)
         sent(phone, words, language)
         assert phone.locator(".told > *").count() == 0
+    assert violations(students[0]) == [], "a vote"
     page.locator(".count b", has_text="2").wait_for()
     assert page.locator(".votes").count() == 0 and page.locator(".letters li").count() == 4
     fits(page)

@@ -3,6 +3,7 @@ the server, and an error is told only to the visitor whom it concerns."""
 
 import asyncio
 import gc
+import html
 import json
 import sys
 import types
@@ -12,9 +13,12 @@ import panel as pn
 import pytest
 import visitors
 from inside import inside
+from panel.pane.plot import Bokeh
+from panel.viewable import Viewable
 from serving import until
 from wire import run
 
+from app.page.house import House
 from app.text import say
 from app.widgets.download import Download
 
@@ -144,6 +148,64 @@ async def ask_of_a_broken_server(here, monkeypatch):
 
 def test_what_fails_is_told_to_whom_it_failed_and_can_be_asked_for_again(here, idle, monkeypatch):
     run(ask_of_a_broken_server(here, monkeypatch), PATIENCE)
+
+
+def once(monkeypatch, owner, name, where=lambda *arguments, **named: True):
+    """The first call of a method with these arguments fails; gives a list that is empty once it has."""
+    real, left = getattr(owner, name), [name]
+
+    def fails(*arguments, **named):
+        if left and where(*arguments, **named):
+            left.clear()
+            raise RuntimeError("broken by the test")
+        return real(*arguments, **named)
+
+    monkeypatch.setattr(owner, name, fails)
+    return left
+
+
+def is_map(pane, *_, **__):
+    return getattr(getattr(pane, "object", None), "name", "") == "map"
+
+
+def has_map(part, root=None, changed=None, *_, **__):
+    """Whether the figure of the map is in a part of the page, or in what has changed of it."""
+    return any(map(is_map, (changed or part).select()))
+
+
+async def open_a_room_that_fails(here, monkeypatch):
+    """Where it is made, where Panel's hooks see it, and where Panel makes its models; each time another room opens."""
+    # a page keeps the methods that it finds when it comes
+    failures = [once(monkeypatch, House, "families"), once(monkeypatch, Viewable, "_preprocess", has_map),
+                once(monkeypatch, Bokeh, "_get_model", is_map)]  # fmt: skip
+    page = await visitors.come(here.url + "?tab=lab")
+
+    def sheets():
+        return {page.now(id, "url") for id in page.visitor.find("ImportedStyleSheet")}
+
+    def said(room):
+        [place] = [id for id in page.visitor.find("panel.models.layout.Column", "name")
+                   if page.now(id, "name") == f"place-of-{room}"]  # fmt: skip
+        stands = [child["id"] for child in page.now(place, "children")]
+        return html.unescape("".join(str(page.now(id, "text", "made")) for id in stands))
+
+    before = sheets()
+    for left in (2, 1, 0):
+        await page.head("room", "families")
+        await page.until(lambda left=left: sum(map(len, failures)) == left
+                         and say("main.making.failed") in said("families"))  # fmt: skip
+        await page.head("room", "build-a-top")  # another tab, after that
+        await page.until(lambda: said("build-a-top") == "made")
+    await page.head("room", "families")
+    await page.until(lambda: said("families") == "made")
+    assert page.labelled("Button", say("family.map.start"))
+    assert before <= sheets() and not any("cdn" in url for url in sheets())
+    await page.vanish()
+    await asyncio.to_thread(here.wait_for_sessions, 0)
+
+
+def test_a_room_that_cannot_be_made_says_so_costs_nothing_and_can_be_opened_again(here, idle, monkeypatch):
+    run(open_a_room_that_fails(here, monkeypatch), PATIENCE)
 
 
 # --- who floods

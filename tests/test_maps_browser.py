@@ -4,8 +4,9 @@ import math
 import re
 
 import pytest
+from axe import LARGE, check
 from playwright.sync_api import expect
-from visiting import PIXEL, Visit, wait
+from visiting import PIXEL, Visit, go_to, wait
 
 from app.text import listed
 
@@ -111,6 +112,10 @@ def test_a_map_is_read_by_hand_and_looked_at_closely(server, chromium):
         what_cannot_be_is_said_and_the_map_stays(page)
         a_term_is_explained_where_the_mouse_rests(page)
         a_box_looks_closer_and_undo_goes_back(page)
+        check(page, "maps", LARGE)
+        go_to(page, "Families")
+        page.get_by_role("button", name="Compute the map").wait_for()
+        check(page, "families", LARGE)
 
 
 def swipe(page, start, by, steps=8):

@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from axe import LARGE, check
 from playwright.sync_api import expect
 
 from app.model.explorer import Explorer
@@ -247,6 +248,7 @@ def test_a_film_is_saved_and_linked_and_another_is_dropped_fitted_and_pulled(ser
         page.mouse.move(x + 240, y, steps=10)
         page.mouse.up()
         page.get_by_text(re.compile(r"s: 0\.[12]\d\d \.\. 0\.746")).wait_for()
+        check(page, "measure", LARGE)
     with chromium.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce") as phone:
         page = phone.new_page()
         page.goto(link)

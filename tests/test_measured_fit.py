@@ -13,6 +13,7 @@ from measured_bodies import LOSSES, LOSSY, case, film, off_truth, other_value, r
 from measured_proof import ALL, go_on, share_within_two
 from measured_proof import kept as kept_films
 
+from app.model.measured import fit as search
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import fit, runs, verdict
 from app.model.measured.kept import kept
@@ -21,8 +22,8 @@ from app.model.runs import Run, Runs, Stopped
 from app.tabs.measure.words import numbers_table
 from tippe_core import Scales, Top, TopError
 
-SEEDS = range(1000, 1004)
-"""Of each kind one, and of the rolling tops two; data/measured.jsonl has many more."""
+SEEDS = (1001, 1002)
+"""Of each law of friction one; data/measured.jsonl has many more, and tops that roll."""
 
 
 @functools.cache
@@ -35,7 +36,7 @@ def known(seed):
 def test_the_truth_is_recovered():
     """Of so few, chance may leave out more than the 5 % of many; none is far off, and no model is refused."""
     off = np.array([float(z) for seed in SEEDS for _, z in known(seed)[0]])
-    assert len(off) > 12
+    assert len(off) == 7
     assert np.mean(np.abs(off) < 2) >= 0.85
     assert np.abs(off).max() < 4
     assert not any(known(seed)[1].refused for seed in SEEDS)
@@ -62,11 +63,20 @@ def test_the_films_that_were_asked_of_have_the_truth_where_they_say():
     assert all(value is not None for row in rows for value in row["unknown"].values())
 
 
+def from_here(values, monkeypatch):
+    """From now on a fit starts at these values, and searches nowhere else: that it finds them is tested above."""
+    monkeypatch.setattr(search, "GROWING", (1.0,))
+    monkeypatch.setattr(search, "starts", lambda model, data: [
+        np.array([values.get(name, 0.0) for name in model.free])] * search.AGREEING)  # fmt: skip
+    monkeypatch.setattr(search, "scattered", lambda model, data: [])
+
+
 @pytest.mark.slow
-def test_a_curved_valley_is_followed_to_its_ends():
+def test_a_curved_valley_is_followed_to_its_ends(monkeypatch):
     """mu and eps of this film: as far as either may go, the others fitted anew, until chi-square has risen by 4."""
     _, data = film(1002)
     _, found = known(1002)
+    from_here(found.model.values, monkeypatch)
     below, above = found.sides["mu"]
     assert above > 3 * below and not found.unknown
     for way, side in ((-1, below), (1, above)):
@@ -76,6 +86,7 @@ def test_a_curved_valley_is_followed_to_its_ends():
         assert fit(held, data).chi2 - found.chi2 == pytest.approx(4, abs=0.5)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_what_is_said_to_be_unknown_cannot_be_known():
     """Of the film whose patch leaves no trace: eps may be anything from 0 on, and mu is known all the same."""
@@ -101,6 +112,7 @@ def check_lossy(seed):
     return [float(z) for _, z in off_truth(on, truth)]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_losses_that_are_left_out_fit_nothing_and_are_recovered_when_asked_for():
     assert np.abs(check_lossy(2005)).max() < 3
@@ -124,6 +136,7 @@ def test_the_constants_from_the_data_stay_where_they_do():
         assert (found["K_R"].stayed, found["K_J"].stayed) == stayed
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_false_minimum_is_left():
     """What the beginning of this film says of the law's second number leads astray: the truth fits far better."""
@@ -137,28 +150,34 @@ def test_a_false_minimum_is_left():
 
 @pytest.mark.slow
 def test_a_refusal_that_may_not_be_of_the_best_is_none():
-    _, found = known(1003)
+    _, found = known(1002)
     bad = replace(found, residuals=Residuals({name: 3 * row for name, row in found.residuals.of.items()}))
     assert bad.refused and verdict(bad, bad) == "neither"
     assert verdict(replace(bad, sure=False), bad) == verdict(bad, replace(bad, sure=False)) == "unsure"
 
 
 @pytest.mark.slow
-def test_a_slipping_top_is_told_from_a_rolling_one():
+def test_a_slipping_top_is_told_from_a_rolling_one(monkeypatch):
     """By the model that the film was not made of: it is refused, and K_R does not stay. The stored fits of the examples
     have the other way round."""
-    (kind, top, scales, _), data = film(1002)
+    (kind, top, scales, truth), data = film(1002)
+    slipped = known(1002)[1]
+    from_here(truth, monkeypatch)
     assert kind == "smoothed"
-    assert verdict(fit(model_of("rolling", top, scales), data), known(1002)[1]) == "slipped"
+    assert verdict(fit(model_of("rolling", top, scales), data), slipped) == "slipped"
     assert not kept(data, top, scales)["K_R"].stayed
 
 
 @pytest.mark.slow
-def test_a_number_that_leaves_no_trace_is_not_known():
-    """Of the tilt alone over a few frames, while the top has hardly begun to slip."""
-    (_, top, scales, _), data = film(1002, what=("tilt",))
+@pytest.mark.parametrize("searches", [False, pytest.param(True, marks=pytest.mark.long)])
+def test_a_number_that_leaves_no_trace_is_not_known(searches, monkeypatch):
+    """Of the tilt alone over a few frames, while the top has hardly begun to slip. A whole search finds other minima,
+    which leave mu unknown too."""
+    (_, top, scales, truth), data = film(1002, what=("tilt",))
+    if not searches:
+        from_here(truth, monkeypatch)
     found = fit(model_of("smoothed", top, scales), data.between(0, 0.15))
-    assert {"mu", "eps"} <= set(found.unknown)
+    assert {"eps", *(["mu"] if searches else [])} <= set(found.unknown)
 
 
 def test_where_a_film_looks_from_makes_no_difference():
@@ -226,7 +245,7 @@ def test_runs_of_one_sign():
 
 
 @pytest.mark.slow
-def test_a_film_from_the_side_gives_the_numbers_but_not_which_way_round():
+def test_a_film_from_the_side_gives_the_numbers_but_not_which_way_round(monkeypatch):
     """Height and place of the stem's tip, of a top that spins the other way: it looks like its mirror image. The tests'
     own body makes the film."""
     kind, top, scales, truth = case(1002)
@@ -237,6 +256,7 @@ def test_a_film_from_the_side_gives_the_numbers_but_not_which_way_round():
     seen = {"tip": end[:, 2], "tip_side": 0.8 * end[:, 0] - 0.6 * end[:, 1] + 0.02}
     data = Data(MappingProxyType({name: Series(t, row + rng.normal(0, 2e-4, len(t)), 2e-4)
                                   for name, row in seen.items()}))  # fmt: skip
+    from_here(truth, monkeypatch)
     found = fit(model_of(kind, top, scales).with_stem(None, tip), data)
     assert found.sure and not found.refused and not found.handed
     said = {name: found.model.values[name] for name in truth}

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from axe import DARK, check
 from house import planes_of
 from playwright.sync_api import expect
 from visiting import IN_SIGHT, PIXEL, Visit
@@ -127,3 +128,5 @@ def test_the_three_planes(server, chromium):
         three_tops_side_by_side_go_by_one_clock(page, first)
         a_preset_sets_the_top_the_start_and_the_law_and_undo_takes_it_back(page)
         of_two_quick_clicks_on_the_map_the_second_counts(page)
+        page.set_viewport_size({"width": 1400, "height": 3000})  # all of it is in sight
+        check(page, "three planes", DARK)

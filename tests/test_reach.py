@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from axe import DARK_LARGE, check
 from visiting import Visit
 
 from app.text import listed
@@ -39,8 +40,9 @@ def words_of(language):
     return set().union(*(pieces(listed(path.stem, language)) for path in folder.glob("*.toml")))
 
 
-def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(visit):
-    page = visit.page
+def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(chromium, server):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+    Visit(page, server, near=True)
     for playing in ("", "!"):  # paused at first, where a person prefers less motion
         page.locator("body").press("Space")
         page.wait_for_function(f"{playing}__tippe.top3d.playing")
@@ -54,6 +56,7 @@ def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(visit):
     keys = page.get_by_role("dialog", name="Keys")
     page.locator("body").press("?")
     keys.get_by_text("play or pause").wait_for()
+    check(page, "the keys")
     page.keyboard.press("Escape")
     keys.wait_for(state="hidden")
     slider = page.get_by_role("slider", name="Jellett’s constant")
@@ -62,10 +65,15 @@ def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(visit):
     assert page.evaluate("__tippe.top3d.index") == 1
     page.locator("body").press("Space")
     assert not page.evaluate("__tippe.top3d.playing")
+    page.get_by_role("button", name="Share").click()
+    page.locator("svg:has(title:text-is('QR code of the link'))").wait_for()
+    check(page, "Share", DARK_LARGE)
+    page.keyboard.press("Escape")
     for size in ({"width": 1400, "height": 900}, {"width": 390, "height": 844}):
         page.set_viewport_size(size)
         the_tour(page, size["width"])
     page.get_by_role("slider", name="Jellett’s constant").click()  # on a phone it stands under the pictures
+    page.close()
 
 
 def the_tour(page, width):
@@ -82,6 +90,8 @@ def the_tour(page, width):
             one[at] >= other[at] + other[size] - 8
             for one, other in ((box, shown), (shown, box)) for at, size in (("x", "width"), ("y", "height"))
         ), (width, i, box, shown)  # fmt: skip
+        if i == 1 and width > 1000:
+            check(page, "the tour", DARK_LARGE)
         if i < 5:
             page.get_by_role("button", name="Next", exact=True).click()
     page.keyboard.press("Escape")
@@ -94,7 +104,7 @@ def the_tour(page, width):
 
 def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_changes_the_language(chromium, server):
     page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
-    Visit(page, f"{server}?lang=de")
+    Visit(page, f"{server}?lang=de", near=True)
     assert page.evaluate("document.documentElement.lang") == "de"
     page.get_by_role("slider", name="Jellett-Konstante").press("ArrowLeft")
     page.wait_for_url("**?v=2&KJ=6.99&t=0&lang=de")

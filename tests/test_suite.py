@@ -1,5 +1,6 @@
 """The suite itself: the order of its files, what it says when it has waited, and errors of pages."""
 
+import re
 from collections import Counter
 from pathlib import Path
 from types import SimpleNamespace
@@ -43,8 +44,10 @@ def test_an_error_of_a_page_fails_its_test_and_no_other(chromium, page_errors):
     page.set_content("<script>console.error('said'); setTimeout(() => { throw new Error('thrown') })</script>")
     page.evaluate("() => new Promise((done) => setTimeout(done))")
     page.evaluate("() => fetch('http://127.0.0.1:9').catch(() => {})")
+    page.evaluate("() => fetch('http://elsewhere.invalid').catch(() => {})")
     found = "\n".join(text for _, text in page_errors.end())
     assert "said" in found and "thrown" in found and "127.0.0.1:9" in found
+    assert re.findall("another machine was asked: (.*)", found) == ["http://elsewhere.invalid/"]
     assert page_errors.end() == []
     page_errors.allow("expected")
     page.evaluate("() => console.error('this was expected')")

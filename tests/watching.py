@@ -11,6 +11,7 @@ from visiting import PATIENCE
 expect.set_options(timeout=PATIENCE)
 
 FAILURES = Path(__file__).parent / "failures"  # ignored by git
+OWN = r"(data|blob|file|about|chrome-error):|\w+://([\w-]+\.test|localhost|127\.0\.0\.1)(:\d+)?/"  # no other machine
 ABORTED = "net::ERR_ABORTED"  # a page that is left stops its requests
 LOST = r"(?i)websocket|not connected|net::ERR_|Failed to load resource"  # what a page says whose server does not answer
 
@@ -28,11 +29,16 @@ class Watch:
         context.on("console", self._said)
         context.on("weberror", lambda error: self._failed(error.page, str(error.error)))
         context.on("requestfailed", self._missed)
+        context.on("request", self._asked)
 
     def _said(self, message):
         self.console.append(f"{message.type}: {message.text}")
         if message.type == "error":
             self._failed(message.page, message.text)
+
+    def _asked(self, request):
+        if not re.match(OWN, request.url):
+            self.errors.append(("", f"another machine was asked: {request.url}"))
 
     def _missed(self, request):
         self.console.append(f"request failed: {request.url}: {request.failure}")
