@@ -54,7 +54,7 @@ class Run:
             if t < start - 1e-6 or tilt < level - 10:
                 since, last = None, -np.inf
             elif tilt > level:
-                since = t if since is None or t - last > 0.1 else since
+                since = t if since is None or t - last > 0.12 else since
                 longest, last = max(longest, t - since), t
         return longest
 

@@ -62,7 +62,7 @@ def another_table(page):
     heights = np.array([float(point.split(",")[1]) for point in line(page).split()])
     right_angle = page.locator(".strip .grid").first.get_attribute("y1")
     assert heights.min() > float(right_angle) + 30  # it never comes close
-    page.get_by_text("Rolling, it never turns over.").wait_for()
+    page.get_by_text("Rolling, it does not turn over.").wait_for()
 
 
 def what_cannot_be(page):

@@ -112,6 +112,7 @@ def test_a_cone_that_stands_up_for_half_a_minute_is_not_said_to_sink():
         (("ordinary", BALL, 50.0, 107.3, 0.3), "", "heavy side"),
         (("ordinary", LOADED, -58.2, 30.0, 1.0), "between 29.1° and 130.7°", "nothing can turn it over"),
         (("ordinary", LOADED, 50.0, 5.73, 0.3), "", r"\bstem\b"),
+        (("ordinary", S, 38.34, 105.4, 0.052), "It stands upside down", "turned it over"),
         (("ordinary", PAPER, 100.0, 180.0, 0.3), "turning 100 times a second", "too little energy"),
     ],
 )

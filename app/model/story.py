@@ -203,7 +203,8 @@ class _Told:
         if i == 0:
             return say("lab.stages.stands.start")
         rubbed = any(each.kind == "over" and self._rubs(each) for each in self.phases[:i])
-        return say("lab.stages.stands.turned") if rubbed and self.a > 0 and before.count("over") == 1 else ""
+        below = self.motion.tilt[0] < SIDE
+        return say("lab.stages.stands.turned") if rubbed and below and self.a > 0 and before.count("over") == 1 else ""
 
     def _why_upright(self, i: int, numbers: dict[str, Number]) -> str:
         """What holds it: its low weight, or its spin; or that nothing does for ever."""
