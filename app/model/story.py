@@ -23,7 +23,7 @@ STANDS = ("stands-on-stem", "stands-upright", "stands-inverted")
 LEANS, AT_ONCE = 1.0, 0.05  # s: so long a lean is an event too; what is so near is one event
 TENTH = (0.05, 0.15)  # degrees
 SAME, STEADY = 0.05, 0.5  # the share that is not called a change; degrees within which a tilt is called steady
-SMALL, NEAR = 0.02, 10.0  # the share of its energy that is not worth a word; degrees
+SMALL, NEAR = 0.005, 10.0  # the share of its energy that is not worth a word; degrees
 AROUND = np.pi / 2  # rad: what goes round turns by more
 
 
@@ -297,7 +297,7 @@ class _Told:
         return slice(first, max(int(np.searchsorted(t, phase.end + 1e-9)), first + 1))
 
     def _at(self, t: float) -> Array:
-        return self.curves[min(int(np.searchsorted(self.curves[:, 0], t)), len(self.curves) - 1)]
+        return np.array([np.interp(t, self.curves[:, 0], column) for column in self.curves.T])
 
     def _numbers(self, i: int, phase: Phase) -> dict[str, Number]:
         """All numbers that the words of a phase may quote."""
@@ -307,7 +307,7 @@ class _Told:
         upto = self.curves[(self.curves[:, 0] >= phase.start) & (self.curves[:, 0] <= ahead[0])]
         return {
             "time": phase.start, "seconds": float(motion.seconds[-1]), "long": phase.end - phase.start,
-            "from": float(tilt[0]), "end": float(tilt[-1]), "least": float(tilt.min()), "most": float(tilt.max()),
+            "from": float(first[2]), "end": float(last[2]), "least": float(tilt.min()), "most": float(tilt.max()),
             "spin": abs(float(first[5])), "last": abs(float(last[5])), "low": float(start[2]),
             "high": float(upto[:, 2].max()) if len(upto) else float(first[2]),
             "start": float(start[3] + start[4] * (motion.table == "rough")), "left": float(last[3]),
