@@ -56,12 +56,9 @@ class InThisThread(ThreadPoolExecutor):
 def in_one_thread(loop, context):
     """1. Keeps the work of sessions in the server's own thread. loop: asyncio's; context: Bokeh's ApplicationContext.
 
-    From 3.10 on Bokeh gives that work to the event loop's executor, and what is to be sent to one of its own, which is
-    private. That is not faster, because only one thread at a time has the interpreter (a move costs an eighth more of
-    the processor). But Panel answers some messages of a page, such as those of a dragged slider, in the event loop
-    without the document's lock: with a second thread, two of them would change one session at the same time. Long
-    computations are given to app.model.runs. https://github.com/bokeh/bokeh/pull/15239,
-    https://github.com/holoviz/panel/pull/8675
+    From 3.10 on Bokeh gives it to executors. Panel answers some messages in the event loop without the document's lock:
+    with a second thread, two of them would change one session at the same time.
+    https://github.com/bokeh/bokeh/pull/15239, https://github.com/holoviz/panel/pull/8675
     """
     here = InThisThread(1)
     loop.set_default_executor(here)
@@ -71,11 +68,8 @@ def in_one_thread(loop, context):
 
 
 def thawed(freeze):
-    """2. Bokeh's and Panel's methods that freeze a document's list of models while they change it. If the change fails,
-    the list would stay frozen, and nothing new would reach the page.
-
-    No issue of theirs describes this; on the mechanism: https://github.com/bokeh/bokeh/issues/14962
-    """
+    """2. Bokeh's and Panel's methods that freeze a document's list of models while they change it: it would stay frozen
+    if the change fails. We found no issue; on the mechanism: https://github.com/bokeh/bokeh/issues/14962"""
 
     @contextmanager
     def frozen(of, *arguments, **named):
@@ -107,9 +101,7 @@ def to_the_last(dispatch):
 
 
 def put(connection, events):
-    """Makes one message of these events, and queues it behind what the connection has waiting. A second connection of
-    the session, such as that of a page that comes back, gets the same message: another one would only refer by name to
-    what the first one brings."""
+    """Makes one message of these events, the same for each connection of a session, and queues it there."""
     first = events[0]
     if first not in MADE:
         MADE[first] = message_of(events)
@@ -117,8 +109,7 @@ def put(connection, events):
 
 
 class Known(Serializer):
-    """9. Gives the names of the models of a page. For each message Bokeh first lists the names of all models, which was
-    half of its cost. models: those of the document. We found no issue."""
+    """9. Gives the names of models without listing all of a page for each message. We found no issue."""
 
     def __init__(self, models):
         super().__init__()
@@ -186,8 +177,7 @@ def send_all(document, connections, events):
 
 def in_order():
     """3, for Panel 1.9 and Bokeh 3.9: messages are sent in the order in which they were made. Each library wrote on its
-    own, so a message that refers to a figure could overtake the one that contains it, and the browser did not know the
-    figure. The newer versions make a message only when they write it. https://github.com/holoviz/panel/pull/6028"""
+    own, so one that refers to a figure could overtake the one that contains it. https://github.com/holoviz/panel/pull/6028"""
     ServerConnection.send_patch_document = send_one
     panel.io.document.write_events = panel.io.document.schedule_write_events = send_all
 
@@ -264,14 +254,14 @@ def counted(wrap, budget):
 
 
 def count(budget):
-    """From now on counts what sessions do later."""
+    """From now on counts what sessions do later, and lets each frame of a websocket be counted."""
+    WebSocketProtocol13._receive_frame = paced(WebSocketProtocol13._receive_frame)
     ServerSession._wrap_document_callback = counted(ServerSession._wrap_document_callback, budget)
 
 
 def paced(receive):
-    """11. tornado's method that reads one frame of a websocket: after each the handler's pace() is awaited. tornado
-    itself answers pings and joins the parts of a message, and of neither does it tell the handler in a way that could
-    make a sender wait. We found no issue."""
+    """11. tornado's method that reads one frame of a websocket: after each, also a ping or a part of a message, the
+    handler's pace() is awaited. We found no issue."""
 
     async def received(protocol):
         await receive(protocol)
@@ -281,18 +271,12 @@ def paced(receive):
     return received
 
 
-def pace():
-    """From now on each frame of a websocket is followed by its handler's pace()."""
-    WebSocketProtocol13._receive_frame = paced(WebSocketProtocol13._receive_frame)
-
-
 # --- for components
 
 
 def at_once(component, *properties):
-    """6. Lets these properties of a Panel component arrive without Panel's delay of 50 ms, without its busy signal,
-    which costs as much as the rest of a small answer, and without making every parameter of the component writable
-    first, which was a fifteenth of the cost of a move. We found no issue."""
+    """6. Lets these properties of a Panel component arrive without Panel's delay of 50 ms, without its busy signal, and
+    without making every parameter of the component writable first. We found no issue."""
     component._priority_changes = component._busy__ignore = list(properties)
     component._process_events = partial(_take, component, component._process_events, {*properties})
 
@@ -344,8 +328,7 @@ def address_of(component):
 
 
 class WholeFile(pmui.FileInput):
-    """8. Accepts a file only in one piece, and counts those that are refused because they are too large: the base class
-    has no message for them, and assembles as many pieces as are sent, of any size.
+    """8. Accepts a file only in one piece, and counts those that are too large.
     https://github.com/panel-extensions/panel-material-ui/issues/282, https://github.com/holoviz/panel/issues/541"""
 
     LARGEST = 0  # bytes

@@ -91,7 +91,12 @@ HOUSE = FRONTEND.parent.parent / "docs/house.md"
 def told(pattern):
     """{event: the files that send it, or listen to it}"""
     found = {}
-    for path in (*FRONTEND.glob("src/**/*.js"), *FRONTEND.parent.glob("*.js"), *FRONTEND.parent.glob("*.html")):
+    for path in (
+        *FRONTEND.glob("src/**/*.js"),
+        *FRONTEND.parent.glob("*.js"),
+        *FRONTEND.parent.glob("widgets/*.js"),
+        *FRONTEND.parent.glob("*.html"),
+    ):
         inside = path.is_relative_to(FRONTEND)
         name = path.relative_to(FRONTEND / "src" if inside else FRONTEND.parent.parent).as_posix()
         for event in pattern.findall(path.read_text(encoding="utf-8")):

@@ -102,7 +102,6 @@ def prepared(settings, show):
 
     borrowed.mend()
     borrowed.count(budget)
-    borrowed.pace()
     application = Application(FunctionHandler(make))
     template = generate_session(application)  # of all pages, made before the first visitor comes
     template.document.callbacks.trigger_event(DocumentReady())
