@@ -14,7 +14,8 @@ where the stem's edge is a circle of radius b about axis 3 at the height h above
 slipping contact the friction law gives the force F = N (z - k(u) u) and the pivoting torque M = -N t(u, w_z) z. At a
 sticking contact F is a constraint force, and so is M along z if the law has a pivoting torque. Rolling resistance adds
 M = -N delta w_h/|w_h|. There are as many unknowns as conditions: u_z' = 0, and for a sticking contact u' = 0 (and
-w_z' = 0). If two contacts stick, the friction along the line between them is undetermined; the smallest is chosen.
+w_z' = 0). If two contacts stick, the friction along the line between them is undetermined; the smallest is chosen, or
+if that exceeds static friction at one of them, the nearest to it that does not.
 
 Euler angles are avoided. The orientation is that of a frame whose third axis is e and which does not rotate about e
 (quaternion p), and the angle chi by which the body has rotated in that frame, chi' = w_3. Both are smooth through
@@ -35,7 +36,8 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array, Vector
-from .friction import CONTENSOU, COULOMB, push
+from .elimination import solve
+from .friction import CONTENSOU, COULOMB, bounds, push
 from .records import Record
 
 OPEN, SLIP, STICK = range(3)  # modes of a contact
@@ -213,6 +215,8 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
             C.M[i, axis] += size * (C.columns[j, 3 + axis] - at[axis])
             C.v_dot[axis] += size * C.columns[j, axis]
             C.L_dot[axis] += size * C.columns[j, 3 + axis]
+    if both and ball == STICK and stem == STICK:
+        share_along_the_line(P, C)
     w_dot = angular((C.L_dot[0], C.L_dot[1], C.L_dot[2]), e, P)
     for axis in range(3):
         C.w_dot[axis] = w_dot[axis] + k * L3 * e_dot[axis]
@@ -254,31 +258,19 @@ def least_along_the_line(C: Record) -> None:
 
 
 @compiled
-def solve(matrix: Array, right: Array, n: int) -> float:
-    """Solves matrix x = right for the first n rows by Gaussian elimination, x into right; returns the determinant."""
-    determinant = 1.0
-    for j in range(n):
-        best = j
-        for r in range(j + 1, n):
-            if abs(matrix[r, j]) > abs(matrix[best, j]):
-                best = r
-        if best != j:
-            determinant = -determinant
-            right[j], right[best] = right[best], right[j]
-            for c in range(j, n):
-                matrix[j, c], matrix[best, c] = matrix[best, c], matrix[j, c]
-        pivot = matrix[j, j]
-        determinant *= pivot
-        for r in range(j + 1, n):
-            share = matrix[r, j] / pivot
-            right[r] -= share * right[j]
-            for c in range(j + 1, n):
-                matrix[r, c] -= share * matrix[j, c]
-    for j in range(n - 1, -1, -1):
-        for c in range(j + 1, n):
-            right[j] -= matrix[j, c] * right[c]
-        right[j] /= matrix[j, j]
-    return determinant
+def share_along_the_line(P: Record, C: Record) -> None:
+    """Where the least forces exceed static friction at one contact, the other takes what it can of the force along the
+    line, which changes nothing else."""
+    dx, dy = C.rho[STEM, 0] - C.rho[BALL, 0], C.rho[STEM, 1] - C.rho[BALL, 1]
+    far, most = np.sqrt(dx * dx + dy * dy), bounds(P.law)[0]
+    dx, dy = dx / far, dy / far
+    for i in range(2):
+        along, across = C.F[i, 0] * dx + C.F[i, 1] * dy, C.F[i, 0] * dy - C.F[i, 1] * dx
+        room = max(most * C.F[i, 2], 0.0) ** 2 - across * across
+        if 0.0 <= room < along * along:
+            moves = along - np.copysign(np.sqrt(room), along)
+            C.F[i, 0], C.F[i, 1] = C.F[i, 0] - moves * dx, C.F[i, 1] - moves * dy
+            C.F[1 - i, 0], C.F[1 - i, 1] = C.F[1 - i, 0] + moves * dx, C.F[1 - i, 1] + moves * dy
 
 
 @compiled

@@ -5,13 +5,28 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .contacts import HALTS, LEAVES, LOG_STILL, SLIPS, first_negative, guards, known, margin, may_stick
+from .contacts import HALTS, LEAVES, LOG_STILL, NUDGE, SLIPS, first_negative, guards, known, margin, may_stick
 from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, forces, rates
 from .friction import CONTENSOU, COULOMB
+from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
 from .impulses import halted
 from .poses import record, turned
 from .records import Record
-from .stepper import STAGES, A, B, at_end, at_share, densely, error, factor, stage, steady_direction, when, within
+from .stepper import (
+    ORDER,
+    STAGES,
+    A,
+    B,
+    at_end,
+    at_share,
+    densely,
+    error,
+    factor,
+    stage,
+    steady_direction,
+    when,
+    within,
+)
 from .tally import tally, tally_tilt
 from .watching import first_event
 
@@ -34,7 +49,7 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
     if W.begins:
-        W.begins, W.rated, W.slowest = 0, 0, NO_ONE
+        W.begins, W.rated, W.stiff, W.slowest = 0, 0, 0, NO_ONE
         W.h = FIRST
         arrange(y, NO_ONE, OPEN, OPEN, P, C)
         W.floor[0], W.floor[1] = min(C.height[0], 0.0), min(C.height[1], 0.0)
@@ -129,7 +144,7 @@ def change_variables(W: Record, P: Record) -> int:
 @compiled
 def scales(W: Record, P: Record, slowest: int) -> None:
     """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy."""
-    y, S, tolerance = W.y, W.step, P.tolerance
+    y, S, tolerance = W.y, W.step, max(P.tolerance, TOLERANCE if W.stiff else 0.0)
     L = max(P.I1, np.sqrt(y[5] * y[5] + y[6] * y[6] + y[7] * y[7]))
     v = max(1.0, np.sqrt(y[8] * y[8] + y[9] * y[9] + y[14] * y[14]))
     S.scale[:] = tolerance
@@ -145,17 +160,25 @@ def scales(W: Record, P: Record, slowest: int) -> None:
 def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, float]:
     """Finds a step from step.z to step.new within the tolerance, at most `most` long: its length, and the least
     margin()."""
-    S = W.step
+    S, order = W.step, IMPLICIT_ORDER if W.stiff else ORDER
+    if W.stiff:
+        differentiate(W, P)
     while True:
         h = min(W.h, most)
-        found, near = attempt(W, P, slowest, h)
+        found, near = implicit_step(W, P, h) if W.stiff else attempt(W, P, slowest, h)
         if slowest != NO_ONE and S.new[8] - S.z[8] > LEAP:
             found = np.inf
-        factors = factor(found)
+        factors = factor(found, order)
         if found < 1.0 or h <= SMALLEST:
             break
         W.h = h * factors
     W.h = max(h * factors, W.h if h < W.h else 0.0, SMALLEST)
+    W.implicit = W.stiff
+    W.stiff = P.law.kind == CONTENSOU and is_stiff(W, P, h)
+    if W.stiff and not W.implicit:
+        W.h *= S.K[STAGES, 12]
+    elif W.implicit and not W.stiff:
+        W.h /= S.K[STAGES, 12]
     return h, near
 
 
@@ -220,13 +243,14 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
         for i in range(1 + P.stem):
             speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.width * w[2])
             if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
-                if may_stick(y, ball, stem, i, P, C):
+                holds = may_stick(y, ball, stem, i, P, C)
+                if holds or speed < NUDGE / 4:
                     rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
                     left = speed * (y[12] - W.step.z[12]) / (before - speed)  # time until it vanishes
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, 12]
                     halted(y, i, P, C)
-                    return HALTS + i
+                    return (HALTS if holds else SLIPS) + i
     return NO_ONE
 
 

@@ -14,10 +14,11 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .dynamics import SLOW, solve
+from .dynamics import SLOW
+from .elimination import solve
 from .friction import CONTENSOU, COULOMB, bounds, push
 from .records import Record
-from .stepper import STAGES, A, B, error, factor, stage
+from .stepper import ORDER, STAGES, A, B, error, factor, stage
 
 STOPPED = 1e-9  # relative to the speed of the impact: a smaller slip counts as 0
 DIGITS = 1e-12  # the tolerance of a step, relative to the same
@@ -41,12 +42,12 @@ def impact(W: Array, start: Array, law: Record) -> Array:
             J, holds = J + away(W, q, rest, scale), False
         found = attempt(W, start, law, scale, J, h, K, at, new, allowed)
         if not found < 1.0:
-            h *= factor(found)
+            h *= factor(found, ORDER)
             continue
         if after(W, start, new)[2] >= 0.0:
             return closing(W, start, law, scale, J, h, K, at, new, allowed)
         J[:] = new
-        h *= factor(found)
+        h *= factor(found, ORDER)
     return J
 
 

@@ -40,8 +40,9 @@ CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(
                 right=(7,))  # fmt: skip
 
 # A step of stepper.py: the rates at its stages, z before and after it and at a stage, the scales of z, the coefficients
-# of the polynomial.
-STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16))
+# of the polynomial; and those of implicit.py: its stages, the Jacobian and the equations for a stage.
+STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16),
+            U=(8, 16), J=(16, 9), matrix=(9, 9), pivots=("i8", (9,)), right=(9,))  # fmt: skip
 
 # The summary of a motion, tally.py.
 TALLY = kind(since=float, C_J=float, drift=float, time_90=float, time_stem=float, hops="i8", F_z_least=float,
@@ -50,7 +51,8 @@ TALLY = kind(since=float, C_J=float, drift=float, time_90=float, time_stem=float
 # A motion: y, the modes of ball and stem, the heights that count as the table's (slightly below 0 for contacts that
 # have just opened), the angles of poses.py, the next step, the guards; the numbers of samples, events and steps;
 # whether a stretch begins, whether the rates at y are in step.K; the slowest contact with its log|u| and beta, and
-# whether beta is kept steady.
+# whether beta is kept steady; whether the next step is
+# to be implicit, and whether the last one was.
 MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(10,), samples="i8", events="i8",
-              steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS,
-              tally=TALLY)  # fmt: skip
+              steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8", stiff="i8", implicit="i8",
+              step=STEP, contacts=CONTACTS, tally=TALLY)  # fmt: skip

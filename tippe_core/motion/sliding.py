@@ -57,8 +57,8 @@ def slide(
     state: the State at times[0]; x, y, vx, vy None mean that G is at the origin, at rest.
     friction: Coulomb(mu_k, mu_s), Viscous(gamma), SmoothedCoulomb(mu, eps) or Contensou(mu, radius).
     times: (n,) in (R/g)^1/2, not decreasing.
-    rtol: 1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy. While a top turns over, in
-    900 (R/g)^1/2, C_J changes by about 4 rtol C_J.
+    rtol: 1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy.
+    While a top turns over, in 900 (R/g)^1/2, C_J changes by about 4 rtol C_J. Creep (implicit.py): 5e-9 at least.
 
     landing: with "plastic" a top that leaves the table flies and lands without a bounce. With "stop" the Trajectory
     ends when it lifts off, at the last of the times before. In the impact friction follows its own law, with the normal

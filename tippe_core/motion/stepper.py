@@ -14,7 +14,7 @@ from .records import Record
 
 A, B, E3, E5 = (np.ascontiguousarray(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
 A_DENSE, D = np.ascontiguousarray(DOP853.A_EXTRA), np.ascontiguousarray(DOP853.D)
-STAGES = 12
+STAGES, ORDER = 12, 8
 SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.9, 0.2, 10.0
 
 
@@ -51,11 +51,11 @@ def error(K: Array, scale: Array, h: float) -> float:
 
 
 @compiled
-def factor(found: float) -> float:
-    """The factor by which to change h after a step with this ratio of its error to the allowed one."""
+def factor(found: float, order: int) -> float:
+    """The factor by which to change h after a step with this ratio of its error, of this order, to the allowed one."""
     if not np.isfinite(found):
         return LEAST_FACTOR
-    return min(MOST_FACTOR, max(LEAST_FACTOR, SAFETY * max(found, 1e-12) ** -0.125))
+    return min(MOST_FACTOR, max(LEAST_FACTOR, SAFETY * max(found, 1e-12) ** (-1 / order)))
 
 
 @compiled
@@ -81,7 +81,10 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
 
 @compiled
 def densely(W: Record, P: Record, slowest: int, h: float) -> None:
-    """Computes the polynomial (dense output) of the step from step.z to step.new, whose stages are in step.K."""
+    """Computes the polynomial (dense output) of the step from step.z to step.new, whose stages are in step.K.
+    That of an implicit step is there already."""
+    if W.implicit:
+        return
     S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
     K, F = S.K, S.polynomial
     for s in range(3):

@@ -1,0 +1,53 @@
+"""Contensou's law where the patch hardly slips and hardly spins: implicit steps, and both contacts at rest.
+
+tests/data/creeping.json holds what explicit steps alone gave, without a limit to their number: for the paper's top from
+12 s on 33 s of the processor for 2 s of its motion.
+"""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tippe_core import Contensou, State, Top, slide
+
+KNOWN = json.loads((Path(__file__).parent / "data/creeping.json").read_text(encoding="utf-8"))
+FREE = Top(a=-2.893199979896467, I1=5.029282603270844, I3=6.547745891340401)  # the preset Free profile
+STEPS = 32  # of slide() between two calls of progress
+
+
+def steps(top, state, friction, times, edge):
+    """The Trajectory, and about how many steps it took."""
+    calls = []
+    return slide(top, state, friction, times, edge=edge, progress=calls.append), STEPS * len(calls)
+
+
+@pytest.mark.parametrize("known", KNOWN, ids=lambda known: known["name"])
+def test_it_creeps_as_with_explicit_steps(known):
+    moved, took = steps(Top(*known["top"]), State(**known["state"]), Contensou(known["mu"], known["radius"]),
+                        known["t"], known["edge"])  # fmt: skip
+    theta, heat, C_J = (np.array(known[name]) for name in ("theta", "heat", "C_J"))
+    assert np.degrees(np.abs(moved.theta - theta)).max() < 0.1
+    assert np.abs(moved.heat - heat).max() < 1e-3 * heat[-1]
+    assert np.abs(moved.jellett - C_J).max() < 1e-3 * np.abs(C_J).max()
+    assert took < 20_000  # millions before
+
+
+def test_a_long_life_costs_few_steps():
+    """60 s of the paper's top, most of which it creeps. (It did not end: more than four million.)"""
+    known = KNOWN[0]
+    moved, took = steps(Top.paper(), State(**known["state"]), Contensou(known["mu"], known["radius"]),
+                        np.linspace(0, 1450, 3001), known["edge"])  # fmt: skip
+    assert len(moved) == 3001 and took < 400_000
+
+
+def test_a_top_that_rolls_on_ball_and_stem_shares_the_friction():
+    """The preset Free profile comes to roll on its side, in a circle. The friction along the line between its contacts
+    that the ball cannot hold the stem holds. (The ball slipped and stuck by turns, and the run did not end.)"""
+    lies = State(0.752371816073774, 0.0, -0.06918797343306982, 0.5902207942999111, vx=-0.69, vy=-0.02)
+    moved, took = steps(FREE, lies, Contensou(0.3, 0.1), np.linspace(0, 100, 201), (3.6, 2.0, 0.0))
+    assert len(moved) == 201 and took < 20_000
+    assert len(moved.events) < 100 and moved.supports[-1][1] == "both" and set(moved.regime[-100:]) == {"roll"}
+    for kept in (moved.theta, np.hypot(*moved.velocity[:, :2].T), moved.heat):
+        assert np.ptp(kept[-100:]) < 1e-9
