@@ -20,7 +20,7 @@ def lasting(t: Array, above: Array, long: float) -> list[Span]:
     last = 0
     for i, j in zip(starts, ends, strict=True):
         start = float(t[0] if i == 0 else np.interp(0.0, above[i - 1 : i + 1], t[i - 1 : i + 1]))
-        end = float(t[-1] if j == len(t) else np.interp(0.0, above[j : j - 2 : -1], t[j : j - 2 : -1]))
+        end = float(t[-1] if j == len(t) else np.interp(0.0, above[[j, j - 1]], t[[j, j - 1]]))
         if spans and start - spans[-1][1] < GAP and above[last:i].min() > -DEEP:
             start = spans.pop()[0]
         spans.append((start, end))
