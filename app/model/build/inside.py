@@ -36,7 +36,7 @@ def filled(shape: TruncatedSphere, kind: str) -> TruncatedSphere:
     R, c = shape.R, shape.c
     if "hole" in names and not shape.hole:
         below = sizes["height"] + sizes["thickness"]  # the room that a disc leaves in the sphere
-        depth = sizes["depth"] = _mm(min(TOY["depth"] * R, HALF * (c + R - below)))
+        depth = sizes["depth"] = _mm(min(TOY["depth"] * R, HALF * (c + R - below), HALF * (c + across(R, shape.r))))
         room = min(across(R, c), across(R, c - depth)) - shape.r
         sizes["hole"] = _mm(min(max(TOY["hole"] * R, shape.r + QUARTER * room), shape.r + MOST * room))
     if "disc" in names and not shape.disc:
