@@ -55,11 +55,9 @@ class InThisThread(ThreadPoolExecutor):
 
 def in_one_thread(loop, context):
     """1. Keeps the work of sessions in the server's own thread. loop: asyncio's; context: Bokeh's ApplicationContext.
-
-    From 3.10 on Bokeh gives it to executors. Panel answers some messages in the event loop without the document's lock:
-    with a second thread, two of them would change one session at the same time.
-    https://github.com/bokeh/bokeh/pull/15239, https://github.com/holoviz/panel/pull/8675
-    """
+    From 3.10 on Bokeh gives it to executors, which is not faster; and Panel answers some messages in the event loop
+    without the document's lock: with a second thread, two of them would change one session at the same time.
+    https://github.com/bokeh/bokeh/pull/15239, https://github.com/holoviz/panel/pull/8675"""
     here = InThisThread(1)
     loop.set_default_executor(here)
     executor = getattr(context, "_executor", None)  # Bokeh 3.9 has none
@@ -101,7 +99,8 @@ def to_the_last(dispatch):
 
 
 def put(connection, events):
-    """Makes one message of these events, the same for each connection of a session, and queues it there."""
+    """Makes one message of these events, the same for each connection of a session, and queues it there: another one
+    would only refer by name to what the first one brings."""
     first = events[0]
     if first not in MADE:
         MADE[first] = message_of(events)
@@ -109,7 +108,7 @@ def put(connection, events):
 
 
 class Known(Serializer):
-    """9. Gives the names of models without listing all of a page for each message. We found no issue."""
+    """9. Gives the names of models without listing all of a page, half of a message's cost. We found no issue."""
 
     def __init__(self, models):
         super().__init__()
@@ -328,7 +327,7 @@ def address_of(component):
 
 
 class WholeFile(pmui.FileInput):
-    """8. Accepts a file only in one piece, and counts those that are too large.
+    """8. Accepts a file only in one piece, and counts those that are too large; the base class does neither.
     https://github.com/panel-extensions/panel-material-ui/issues/282, https://github.com/holoviz/panel/issues/541"""
 
     LARGEST = 0  # bytes

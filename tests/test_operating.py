@@ -56,15 +56,15 @@ def test_a_refusal_is_logged_once_in_ten_seconds_for_each_address_and_then_with_
     handler.emit = lambda record: said.append(record.getMessage())
     monkeypatch.setattr("app.server.logs.logging", SimpleNamespace(getLogger=lambda name: logger))
     for address in ("10.0.0.1", "10.0.0.1", "10.0.0.2", "10.0.0.1"):
-        refused(address, "refused %s: full", address)
-    refused("10.0.0.1", "refused %s: 100 %% other", "10.0.0.1")
+        refused(address, "full", "refused %s: %s", address, "full")
+    refused("10.0.0.1", "other", "refused %s: %s", "10.0.0.1", "100 % other")
     assert said == ["refused 10.0.0.1: full", "refused 10.0.0.2: full", "refused 10.0.0.1: 100 % other"]
     now[0] += 10
-    refused("10.0.0.1", "refused %s: full", "10.0.0.1")
+    refused("10.0.0.1", "full", "refused %s: %s", "10.0.0.1", "full")
     assert said[3:] == ["refused 10.0.0.1: full (2 more like this before)"]
     for number in range(30_000):  # many addresses are not remembered for ever
         now[0] += 0.01
-        refused(str(number), "refused %s: full", number)
+        refused(str(number), "full", "refused %s: %s", number, "full")
     assert len(seldom._said) <= 10_002
 
 

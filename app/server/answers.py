@@ -177,11 +177,11 @@ def routes(application):
 
 
 def log_request(handler):
-    """Logs like tornado, but without the query, which may contain the key of a teacher's vote; and what a full or
-    stopping server answers, 503, and a server that is called by another name, 403, is in the log already."""
+    """Logs like tornado, but without the query, which may contain the key of a teacher's vote. 503, which is how a full
+    or stopping server answers, is no error; what was refused is in the log already."""
     status, request = handler.get_status(), handler.request
-    level = logging.INFO if status < 400 or handler.refused else logging.WARNING if status < 500 else logging.ERROR
-    line = "%d %s %s (%s)"
-    seldom = {"seldom": (request.remote_ip, f"{line} {status}")} if level == logging.WARNING else {}
-    logging.getLogger("tornado.access").log(level, line, status, request.method, request.path, request.remote_ip,
-                                            extra=seldom)  # fmt: skip
+    level = logging.INFO if status < 400 or getattr(handler, "refused", False) else (
+        logging.WARNING if status < 500 or status == 503 else logging.ERROR)  # fmt: skip
+    seldom = {"seldom": (request.remote_ip, status)} if level == logging.WARNING else {}
+    logging.getLogger("tornado.access").log(level, "%d %s %s (%s)", status, request.method, request.path,
+                                            request.remote_ip, extra=seldom)  # fmt: skip

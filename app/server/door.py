@@ -55,10 +55,11 @@ class Door:
         if self.stopping:
             return "stopping"
         left = [session for session in self.sessions if not session.connection_count]  # for its page to come back
-        if len(self.sessions) + self.making.waiting() >= self.settings.sessions or memory() > self._most:
+        full = self.full
+        if full or len(self.sessions) + self.making.waiting() >= self.settings.sessions:
             for session in left:
                 session.request_expiration()
-        if self.full:
+        if full:
             return "full"
         mine = [session for session in left if getattr(session, "address", None) == address]
         here = sum(socket.address == address for socket in self.sockets)

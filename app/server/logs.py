@@ -38,11 +38,11 @@ MOST = 10_000  # that are remembered
 
 class Seldom(logging.Filter):
     """Lets the same refusal of the same address through once in AGAIN, with how often it was held back before, so that
-    no visitor can fill the log. A record is such a refusal if it has `seldom`: the address, and what was refused."""
+    no visitor can fill the log. A record is such a refusal if it has `seldom`: the address, and the reason."""
 
     def __init__(self):
         super().__init__()
-        self._said = {}  # (address, refusal) -> [when it was let through, how often it was not since]
+        self._said = {}  # (address, reason) -> (when it was let through, how often it was not since)
 
     def filter(self, record):
         of = getattr(record, "seldom", None)
@@ -61,9 +61,9 @@ class Seldom(logging.Filter):
         return True
 
 
-def refused(address, line, *values):
-    """Logs a refusal; values: of the line's places."""
-    logging.getLogger("tippe").warning(line, *values, extra={"seldom": (address, line)})
+def refused(address, why, line, *values):
+    """Logs a refusal for the reason `why`; values: of the line's places, in which a visitor may write what he likes."""
+    logging.getLogger("tippe").warning(line, *values, extra={"seldom": (address, why)})
 
 
 class Line(logging.Formatter):

@@ -46,7 +46,7 @@ class Page(Handler):
         app, address = self.application, self.request.remote_ip
         if not app.tippe.lets(self.request.host):
             app.door.refused["stranger"] += 1
-            refused(address, "refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
+            refused(address, "stranger", "refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
             self.refused = True
             self.say(403, self.words("stranger"))
             return
@@ -54,7 +54,8 @@ class Page(Handler):
         refusal = "hurried" if hurried else app.door.refusal(address)
         if refusal:
             app.door.refused[refusal] += 1
-            refused(address, f"refused %s a page: {text.say(f'main.server.{refusal}', text.DEFAULT)}", address)
+            sentence = text.say(f"main.server.{refusal}", text.DEFAULT)
+            refused(address, refusal, "refused %s a page: %s", address, sentence)
             self.refused = True
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return

@@ -1,7 +1,6 @@
 """What an operator sets, by environment variables or on the command line of `python -m app`."""
 
 import argparse
-import math
 import os
 import re
 import sys
@@ -95,8 +94,7 @@ def bound(text):
 
 def fitting(workers):
     """How many pages of one room each of so many workers has memory for, at most 250."""
-    return max(1, min(250, int((FILLED * memory_limit() / workers - OF_WORKER) // OF_PAGE)
-                      if memory_limit() < math.inf else 250))  # fmt: skip
+    return int(max(1, min(250, (FILLED * memory_limit() / workers - OF_WORKER) // OF_PAGE)))
 
 
 def _setting(default, says, take=str):

@@ -54,7 +54,7 @@ def note(error, whose="a session"):
         log.error("a bug, met by %s: %s", whose, "".join(traceback.format_exception(error)))
         return "The server could not do that; what is shown has not changed."
     name = type(error).__name__
-    refused(whose, f"refused from %s: {name}: %.300s", whose, " ".join(str(error).split()))
+    refused(whose, name, "refused from %s: %s: %.300s", whose, name, " ".join(str(error).split()))
     return str(error) if isinstance(error, Refused) else f"The server did not take that ({name})."
 
 
@@ -90,7 +90,7 @@ class Socket(Answer, WSHandler):
         self.application.door.refused["stranger"] += 1
         self.refused = True
         line = "refused a connection to %s by a page of %.100r: TIPPE_ORIGINS"
-        refused(self.address, line, self.request.host, origin)
+        refused(self.address, "stranger", line, self.request.host, origin)
         return False
 
     def select_subprotocol(self, subprotocols):
@@ -170,7 +170,7 @@ class Socket(Answer, WSHandler):
     def _refuse(self, code, sentence, why="connection"):
         self.refused = True
         self.application.door.refused[why] += 1
-        refused(self.address, f"refused %s: {sentence[:200].replace('%', '%%')}", self.address)
+        refused(self.address, why, "refused %s: %.200s", self.address, sentence)
         self.close(code, sentence.encode()[:120].decode(errors="ignore"))
 
     @property
