@@ -1,12 +1,16 @@
 """Requests to the three planes: what is refused and in which words, what is stopped, what is drawn."""
 
+import asyncio
 import re
 from dataclasses import replace
 from queue import Queue
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from bokeh.document import Document
 from house import builder_of, chosen, of, planes_of, ran
+from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
 from app.model.planes.picture import MOST_FRAMES, MOST_SECONDS
@@ -207,3 +211,14 @@ def test_without_its_stem_the_ball_alone_is_drawn(explorer, planes):
     assert settings.drawn is settings.profile and settings.profile[:, 1].max() > 1.5
     alone = replace(settings, stem=False).drawn
     assert np.allclose(np.hypot(*alone.T), 1, atol=1e-6)
+
+
+def test_a_run_that_no_session_waits_for_is_not_followed_for_ever(planes):
+    view = ThreePlanes({"plane": "sliding"} | planes.inputs, None, None, None, SimpleNamespace(busy=True))
+
+    async def wait():
+        with set_curdoc(Document()):
+            view.wait()
+        return asyncio.all_tasks() - {asyncio.current_task()}
+
+    assert asyncio.run(wait()) == set()

@@ -146,8 +146,8 @@ class ThreePlanes:
 
     def wait(self):
         """Follows a run under way, and shows its progress if it takes long."""
-        # without a page Panel would repeat it on any event loop that runs in this thread, and never end
-        if self._work.busy and self._poll is None and pn.state.curdoc:
+        # without a session Panel would repeat it on any event loop that runs in this thread, and never end
+        if self._work.busy and self._poll is None and getattr(pn.state.curdoc, "session_context", None):
             self._poll = pn.state.add_periodic_callback(self._look_at_run, period=POLL)
         elif not self._work.busy and self._poll is not None:
             self._poll.stop()
