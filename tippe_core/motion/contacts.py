@@ -27,7 +27,7 @@ from .dynamics import (
 from .friction import CONTENSOU, bounds
 from .impact import held, impact
 from .impulses import mobility, moving, pushed, rests
-from .records import Record
+from .records import BETA, HEAT, LOG_U, PW, PX, PY, PZ, VX, VY, VZ, Record, Z
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
 
 # Events; those with room for two numbers are counted as event + contact: a guard falls below 0, a contact comes to
@@ -70,9 +70,9 @@ def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -
             least = min(least, C.F[i, 2])
             if mode == STICK:
                 least = min(least, spare(i, P, C, ball == OPEN or stem == OPEN))
-    up = 1 - 2 * (y[0] * y[0] + y[1] * y[1])
+    up = 1 - 2 * (y[PX] * y[PX] + y[PY] * y[PY])
     if stem != OPEN and P.b > 0.0 and up < 0:
-        least = min(least, 2 * np.sqrt((y[0] * y[0] + y[1] * y[1]) * (y[2] * y[2] + y[3] * y[3])))
+        least = min(least, 2 * np.sqrt((y[PX] * y[PX] + y[PY] * y[PY]) * (y[PZ] * y[PZ] + y[PW] * y[PW])))
     return min(least, up - P.rim)
 
 
@@ -106,7 +106,7 @@ def guards(
 @compiled
 def known(y: Array, C: Record) -> None:
     """Copies v and z into y, after arrange()."""
-    y[8], y[9], y[14], y[15] = C.G[0], C.G[1], C.G[2], C.G[3]
+    y[VX], y[VY], y[VZ], y[Z] = C.G[0], C.G[1], C.G[2], C.G[3]
 
 
 @compiled
@@ -138,8 +138,8 @@ def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> N
                 let_patch_go(y, ball, stem, i, P, C)
             else:
                 beta, u = direction(y, ball, stem, i, P, S, C), moving(y, i, P, C)
-                y[8] += STILL * np.cos(beta) - u[0]
-                y[9] += STILL * np.sin(beta) - u[1]
+                y[VX] += STILL * np.cos(beta) - u[0]
+                y[VY] += STILL * np.sin(beta) - u[1]
 
 
 @compiled
@@ -158,20 +158,20 @@ def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: R
                 else:
                     high = middle
             across(y, high, ball, stem, i, P, S, C)
-            if S.K[0, 8] > best:
-                best, found = S.K[0, 8], high
+            if S.K[0, LOG_U] > best:
+                best, found = S.K[0, LOG_U], high
         last = now
     return found
 
 
 @compiled
 def across(y: Array, beta: float, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
-    """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, 8] is the parallel
-    one."""
+    """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, LOG_U] is the
+    parallel one."""
     S.at[:] = y
-    S.at[8], S.at[9] = LOG_STILL, beta
+    S.at[LOG_U], S.at[BETA] = LOG_STILL, beta
     rates(S.at, i, ball, stem, P, C, S.K[0])
-    return S.K[0, 9]
+    return S.K[0, BETA]
 
 
 @compiled
@@ -305,8 +305,8 @@ def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
 def rocked(y: Array, P: Record, C: Record) -> None:
     """y leaning on the opposite point of the rim; the energy lost in this small rotation is counted as heat."""
     e, _, L3 = turning(y, P)
-    before = kinetic(y, L3, P) + y[15]
+    before = kinetic(y, L3, P) + y[Z]
     y[:] = crossed(y, e)
     moving(y, STEM, P, C)
-    y[15] -= C.height[STEM]
-    y[13] += before - kinetic(y, turning(y, P)[2], P) - y[15]
+    y[Z] -= C.height[STEM]
+    y[HEAT] += before - kinetic(y, turning(y, P)[2], P) - y[Z]

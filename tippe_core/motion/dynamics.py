@@ -38,7 +38,7 @@ from ..compiled import compiled
 from ..types import Array, Vector
 from .elimination import solve
 from .friction import CONTENSOU, COULOMB, bounds, push
-from .records import Record
+from .records import BETA, CHI, HEAT, LOG_U, LX, LY, LZ, PW, PX, PY, PZ, TIME, VX, VY, VZ, Record, X, Y, Z
 
 OPEN, SLIP, STICK = range(3)  # modes of a contact
 BALL, STEM = range(2)  # the contacts
@@ -60,7 +60,7 @@ def carried(ball: int, stem: int) -> int:
 
 @compiled
 def cross(x: Vector, y: Vector) -> Vector:
-    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
+    return x[1] * y[PZ] - x[2] * y[PY], x[2] * y[PX] - x[0] * y[PZ], x[0] * y[PY] - x[1] * y[PX]
 
 
 @compiled
@@ -71,7 +71,7 @@ def row(rows: Array, i: int) -> Vector:
 @compiled
 def turning(y: Array, P: Record) -> Turning:
     """e, w = L/I1 + k (L . e) e, and L . e."""
-    px, py, pz, pw, L = y[0], y[1], y[2], y[3], (y[5], y[6], y[7])
+    px, py, pz, pw, L = y[PX], y[PY], y[PZ], y[PW], (y[LX], y[LY], y[LZ])
     e = 2 * (px * pz + pw * py), 2 * (py * pz - pw * px), 1 - 2 * (px * px + py * py)
     L3 = L[0] * e[0] + L[1] * e[1] + L[2] * e[2]
     along = P.k * L3
@@ -101,11 +101,11 @@ def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) 
     e, w, L3 = turning(y, P)
     place(e, w, P, C)
     G = C.G
-    G[0], G[1], G[2], G[3] = y[8], y[9], y[14], y[15]
+    G[0], G[1], G[2], G[3] = y[VX], y[VY], y[VZ], y[Z]
     ux, uy = 0.0, 0.0
     if slowest != NO_ONE:
-        speed, carried = np.exp(min(y[8], LOG_FAST)), cross(w, row(C.rho, slowest))
-        ux, uy = speed * np.cos(y[9]), speed * np.sin(y[9])
+        speed, carried = np.exp(min(y[LOG_U], LOG_FAST)), cross(w, row(C.rho, slowest))
+        ux, uy = speed * np.cos(y[BETA]), speed * np.sin(y[BETA])
         G[0], G[1] = ux - carried[0], uy - carried[1]
     if ball != OPEN or stem != OPEN:
         first, mode = (BALL, ball) if ball != OPEN else (STEM, stem)
@@ -299,30 +299,33 @@ def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, ou
     """Writes dy/dtau into out; returns what forces() returns."""
     e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
     minor = forces(turn, ball, stem, P, C)
-    px, py, pz, pw, w3 = y[0], y[1], y[2], y[3], L3 / P.I3
+    px, py, pz, pw, w3 = y[PX], y[PY], y[PZ], y[PW], L3 / P.I3
     ox, oy, oz = (w[0] - w3 * e[0]) / 2, (w[1] - w3 * e[1]) / 2, (w[2] - w3 * e[2]) / 2  # half that of the frame
-    out[0], out[1] = ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz
-    out[2], out[3] = oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz
+    out[PX], out[PY] = ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz
+    out[PZ], out[PW] = oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz
     heat = P.drag * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     for i in range(1 + P.stem):
         for axis in range(3):
             heat -= C.F[i, axis] * C.u[i, axis] + C.M[i, axis] * w[axis]
-    out[4], out[5], out[6], out[7] = w3, C.L_dot[0], C.L_dot[1], C.L_dot[2]
-    out[8], out[9], out[10], out[11] = C.v_dot[0], C.v_dot[1], C.G[0], C.G[1]
-    out[12], out[13], out[14], out[15] = 1.0, heat, C.v_dot[2], C.G[2]
+    out[CHI], out[LX], out[LY], out[LZ] = w3, C.L_dot[0], C.L_dot[1], C.L_dot[2]
+    out[VX], out[VY], out[X], out[Y] = C.v_dot[0], C.v_dot[1], C.G[0], C.G[1]
+    out[TIME], out[HEAT], out[VZ], out[Z] = 1.0, heat, C.v_dot[2], C.G[2]
     g = clock(ball, stem, w[2], P, C)
     if g != 1.0:
         for j in range(16):
             out[j] *= g
     if slowest != NO_ONE:  # log|u|' = |u|'/|u|, and beta' = (u' perpendicular to u)/|u|
-        speed, along, across = np.exp(min(y[8], LOG_FAST)), np.cos(y[9]), np.sin(y[9])
+        speed, along, across = np.exp(min(y[LOG_U], LOG_FAST)), np.cos(y[BETA]), np.sin(y[BETA])
         x_dot, y_dot = slip_rate(w, slowest, 0, C), slip_rate(w, slowest, 1, C)
-        out[8], out[9] = (x_dot * along + y_dot * across) * g / speed, (y_dot * along - x_dot * across) * g / speed
+        out[LOG_U], out[BETA] = (
+            (x_dot * along + y_dot * across) * g / speed,
+            (y_dot * along - x_dot * across) * g / speed,
+        )
     return minor
 
 
 @compiled
 def kinetic(y: Array, L3: float, P: Record) -> float:
     """L^2/(2 I1) + k (L . e)^2/2 + v^2/2"""
-    L_squared, v_squared = y[5] * y[5] + y[6] * y[6] + y[7] * y[7], y[8] * y[8] + y[9] * y[9] + y[14] * y[14]
+    L_squared, v_squared = y[LX] * y[LX] + y[LY] * y[LY] + y[LZ] * y[LZ], y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ]
     return (L_squared / P.I1 + (1 / P.I3 - 1 / P.I1) * L3 * L3 + v_squared) / 2

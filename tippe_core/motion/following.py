@@ -11,7 +11,7 @@ from .friction import CONTENSOU, COULOMB
 from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
 from .impulses import halted
 from .poses import record, turned
-from .records import Record
+from .records import BETA, HEAT, LOG_U, LX, LY, LZ, PW, PX, PY, PZ, TIME, VX, VY, VZ, Record
 from .stepper import (
     ORDER,
     STAGES,
@@ -58,10 +58,10 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
         if event != NO_ONE:
             return event
         k = W.samples
-        while k < len(times) and times[k] <= y[12]:
+        while k < len(times) and times[k] <= y[TIME]:
             sample(W, P, y, NO_ONE, times[k], rows)
             k = W.samples
-    while y[12] < end:
+    while y[TIME] < end:
         if W.steps >= limit:
             return MORE
         W.steps += 1
@@ -80,22 +80,22 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
         S.K[0, :] = S.K[STAGES]
     scales(W, P, slowest)
     timed = P.law.kind != CONTENSOU and slowest == NO_ONE
-    h, near = accept(W, P, slowest, end - y[12] if timed else np.inf)
+    h, near = accept(W, P, slowest, end - y[TIME] if timed else np.inf)
     if timed:  # free of rounding errors of the integration
-        S.new[12] = end if h == end - y[12] else y[12] + h
+        S.new[TIME] = end if h == end - y[TIME] else y[TIME] + h
     event, share, k, N = NO_ONE, 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
-    dense = near < NEAR or S.new[12] > end or (k < len(times) and times[k] <= S.new[12])
+    dense = near < NEAR or S.new[TIME] > end or (k < len(times) and times[k] <= S.new[TIME])
     if dense:
         densely(W, P, slowest, h)
     if near < NEAR:
         event, share = first_event(W, P, slowest)
-    over = S.new[12] > end and (share == 1.0 or within(S, share, 12) > end)
+    over = S.new[TIME] > end and (share == 1.0 or within(S, share, TIME) > end)
     if over:
         event, share = NO_ONE, when(S, end)
-    t = S.new[12] if share == 1.0 else (y[12] + share * h if timed else within(S, share, 12))
+    t = S.new[TIME] if share == 1.0 else (y[TIME] + share * h if timed else within(S, share, TIME))
     t = end if over else min(t, end)
     while k < len(times) and times[k] <= t:
-        x = (times[k] - y[12]) / h if timed else when(S, times[k])
+        x = (times[k] - y[TIME]) / h if timed else when(S, times[k])
         at_share(S, x, S.at)
         sample(W, P, S.at, slowest, times[k], rows)
         k = W.samples
@@ -128,16 +128,16 @@ def change_variables(W: Record, P: Record) -> int:
             if W.modes[i] == SLIP and speed < least:
                 slowest, least = i, speed
         if slowest == W.slowest and slowest != NO_ONE:
-            S.z[8], S.z[9] = W.polar[0], W.polar[1]
+            S.z[LOG_U], S.z[BETA] = W.polar[0], W.polar[1]
         elif slowest != NO_ONE:
-            S.z[8], S.z[9] = np.log(least), np.arctan2(C.u[slowest, 1], C.u[slowest, 0])
+            S.z[LOG_U], S.z[BETA] = np.log(least), np.arctan2(C.u[slowest, 1], C.u[slowest, 0])
     W.steady = 0
     if slowest != NO_ONE:
         W.rated = 0
     if slowest != NO_ONE and least < P.tolerance ** (2 / 3):
         S.at[:] = S.z
         beta, attracts, grows = steady_direction(W, P, slowest)
-        W.steady = attracts > STIFF * abs(grows) and abs(beta - S.z[9]) < SLIPS_LITTLE
+        W.steady = attracts > STIFF * abs(grows) and abs(beta - S.z[BETA]) < SLIPS_LITTLE
     return slowest
 
 
@@ -145,15 +145,15 @@ def change_variables(W: Record, P: Record) -> int:
 def scales(W: Record, P: Record, slowest: int) -> None:
     """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy."""
     y, S, tolerance = W.y, W.step, max(P.tolerance, TOLERANCE if W.stiff else 0.0)
-    L = max(P.I1, np.sqrt(y[5] * y[5] + y[6] * y[6] + y[7] * y[7]))
-    v = max(1.0, np.sqrt(y[8] * y[8] + y[9] * y[9] + y[14] * y[14]))
+    L = max(P.I1, np.sqrt(y[LX] * y[LX] + y[LY] * y[LY] + y[LZ] * y[LZ]))
+    v = max(1.0, np.sqrt(y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ]))
     S.scale[:] = tolerance
-    for i in range(5, 8):
+    for i in (LX, LY, LZ):
         S.scale[i] = tolerance * L
-    S.scale[8] = S.scale[9] = S.scale[14] = tolerance * v
-    S.scale[13] = tolerance * max(1.0, L * L / P.I1)
+    S.scale[VX] = S.scale[VY] = S.scale[VZ] = tolerance * v
+    S.scale[HEAT] = tolerance * max(1.0, L * L / P.I1)
     if slowest != NO_ONE:
-        S.scale[8] = S.scale[9] = max(min(0.1 * tolerance / np.exp(S.z[8]), SLIPS_LITTLE), tolerance)
+        S.scale[LOG_U] = S.scale[BETA] = max(min(0.1 * tolerance / np.exp(S.z[LOG_U]), SLIPS_LITTLE), tolerance)
 
 
 @compiled
@@ -166,7 +166,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
     while True:
         h = min(W.h, most)
         found, near = implicit_step(W, P, h) if W.stiff else attempt(W, P, slowest, h)
-        if slowest != NO_ONE and S.new[8] - S.z[8] > LEAP:
+        if slowest != NO_ONE and S.new[LOG_U] - S.z[LOG_U] > LEAP:
             found = np.inf
         factors = factor(found, order)
         if found < 1.0 or h <= SMALLEST:
@@ -176,9 +176,9 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
     W.implicit = W.stiff
     W.stiff = P.law.kind == CONTENSOU and is_stiff(W, P, h)
     if W.stiff and not W.implicit:
-        W.h *= S.K[STAGES, 12]
+        W.h *= S.K[STAGES, TIME]
     elif W.implicit and not W.stiff:
-        W.h /= S.K[STAGES, 12]
+        W.h /= S.K[STAGES, TIME]
     return h, near
 
 
@@ -192,10 +192,10 @@ def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]
         else:
             stage(S.z, S.K, A[s] if s < STAGES else B, s, h, S.at)
         if W.steady:
-            S.at[9] = steady_direction(W, P, slowest)[0]
+            S.at[BETA] = steady_direction(W, P, slowest)[0]
         minor = rates(S.at, slowest, ball, stem, P, C, S.K[s])
         if W.steady:
-            S.K[s, 9] = 0.0
+            S.K[s, BETA] = 0.0
         near = min(near, margin(S.at, minor, ball, stem, P, C))
     S.new[:], W.rated = S.at, 1
     return error(S.K, S.scale, h), near
@@ -207,20 +207,20 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     slowest contact."""
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
-    before = np.exp(S.z[8]) if slowest != NO_ONE else np.inf
+    before = np.exp(S.z[LOG_U]) if slowest != NO_ONE else np.inf
     if P.law.kind == CONTENSOU:
         _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
         before = np.inf
         for i in range(1 + P.stem):
             if W.modes[i] == SLIP:
                 before = min(before, np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.width * w[2]))
-    size = 1 / np.sqrt(S.at[0] ** 2 + S.at[1] ** 2 + S.at[2] ** 2 + S.at[3] ** 2)
+    size = 1 / np.sqrt(S.at[PX] ** 2 + S.at[PY] ** 2 + S.at[PZ] ** 2 + S.at[PW] ** 2)
     for i in range(4):
         S.at[i] *= size
     arrange(S.at, slowest, ball, stem, P, C)
-    W.slowest, W.polar[0], W.polar[1] = slowest, S.at[8], S.at[9]
+    W.slowest, W.polar[0], W.polar[1] = slowest, S.at[LOG_U], S.at[BETA]
     y[:] = S.at
-    y[12] = t
+    y[TIME] = t
     known(y, C)
     turned(y, W.angles)
     return before
@@ -231,7 +231,7 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
     """HALTS + i if friction stops the slowest contact i, SLIPS + i if its slip goes through 0, or NO_ONE."""
     y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
     if slowest != NO_ONE:
-        speed = W.step.new[8]
+        speed = W.step.new[LOG_U]
         if speed < min(np.log(before), LOG_STILL):  # near the limit of friction it may still stick
             if may_stick(y, ball, stem, slowest, P, C):
                 halted(y, slowest, P, C)
@@ -246,9 +246,9 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
                 holds = may_stick(y, ball, stem, i, P, C)
                 if holds or speed < NUDGE / 4:
                     rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
-                    left = speed * (y[12] - W.step.z[12]) / (before - speed)  # time until it vanishes
+                    left = speed * (y[TIME] - W.step.z[TIME]) / (before - speed)  # time until it vanishes
                     for k in range(16):
-                        y[k] += left * W.step.K[0, k] / W.step.K[0, 12]
+                        y[k] += left * W.step.K[0, k] / W.step.K[0, TIME]
                     halted(y, i, P, C)
                     return (HALTS if holds else SLIPS) + i
     return NO_ONE

@@ -9,7 +9,7 @@ from .dynamics import BALL, OPEN, STEM, STICK, carried, turning
 from .following import ENDED, MORE, OVER, ROLLS, follow
 from .friction import COULOMB
 from .poses import turned
-from .records import Record
+from .records import TIME, Record
 from .standing import leaning, lies
 
 # events by number
@@ -47,7 +47,7 @@ def happens(W: Record, P: Record, log: Array, event: int, flies: bool) -> bool:
         return True
     W.begins = 1
     if event == TOUCHES + STEM and np.isnan(W.tally.time_stem):
-        W.tally.time_stem = y[12]
+        W.tally.time_stem = y[TIME]
     goes_on = settle(y, event, W.floor, W.modes, P, W.step, C)
     turned(y, W.angles)
     if not goes_on:
@@ -76,7 +76,7 @@ def happens(W: Record, P: Record, log: Array, event: int, flies: bool) -> bool:
 def noted(W: Record, log: Array, name: int, ball: int, stem: int) -> None:
     """Adds a line to the log."""
     n = W.events
-    log[n, 0], log[n, 1], log[n, 2] = W.y[12], name, carried(ball, stem)
+    log[n, 0], log[n, 1], log[n, 2] = W.y[TIME], name, carried(ball, stem)
     W.tally.hops += name == LIFTS_OFF
     W.events = n + 1
 

@@ -17,7 +17,7 @@ from ..types import Array
 from .contacts import margin
 from .dynamics import BALL, NO_ONE, SLIP, STEM, clock, rates, turning
 from .elimination import decompose, substitute
-from .records import Record
+from .records import PW, TIME, Record
 from .stepper import STAGES, stage
 
 IMPLICIT_ORDER = 5
@@ -89,7 +89,7 @@ def is_stiff(W: Record, P: Record, h: float) -> bool:
 def rates_in_time(z: Array, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
     """rates(), as dz/dt."""
     minor = rates(z, NO_ONE, ball, stem, P, C, out)
-    g = out[12]
+    g = out[TIME]
     for i in range(16):
         out[i] /= g
     return minor
@@ -106,7 +106,7 @@ def differentiate(W: Record, P: Record) -> None:
     S.at[:] = S.z
     for n in range(len(FEEDS)):
         i = FEEDS[n]
-        S.at[i] += small if i > 3 else small / (1 + abs(w[0]) + abs(w[1]) + abs(w[2]))
+        S.at[i] += small if i > PW else small / (1 + abs(w[0]) + abs(w[1]) + abs(w[2]))
         rates_in_time(S.at, ball, stem, P, C, S.K[1])
         for j in range(16):
             S.J[j, n] = (S.K[1, j] - S.K[0, j]) / (S.at[i] - S.z[i])

@@ -6,7 +6,7 @@ from ..compiled import compiled
 from ..types import Array
 from .dynamics import NO_ONE, OPEN, angular, arrange, column, component, cross, kinetic, row, turning
 from .impact import held
-from .records import Record
+from .records import HEAT, LX, LY, LZ, VX, VY, VZ, Record
 
 REST = 1e-11  # ((gR)^1/2): slip below which a contact may stick
 
@@ -29,9 +29,9 @@ def pushed(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
     """y after the impulse and angular impulse J (4,) at contact i; the energy lost is added to the heat."""
     before, impulse = kinetic(y, turning(y, P)[2], P), (J[0], J[1], J[2])
     torque = cross(row(C.rho, i), impulse)
-    y[5], y[6], y[7] = y[5] + torque[0], y[6] + torque[1], y[7] + torque[2] + J[3]
-    y[8], y[9], y[14] = y[8] + J[0], y[9] + J[1], y[14] + J[2]
-    y[13] += before - kinetic(y, turning(y, P)[2], P)
+    y[LX], y[LY], y[LZ] = y[LX] + torque[0], y[LY] + torque[1], y[LZ] + torque[2] + J[3]
+    y[VX], y[VY], y[VZ] = y[VX] + J[0], y[VY] + J[1], y[VZ] + J[2]
+    y[HEAT] += before - kinetic(y, turning(y, P)[2], P)
 
 
 @compiled

@@ -18,7 +18,7 @@ from .dynamics import OPEN, carried
 from .following import ENDED, MORE
 from .friction import CONTENSOU, LAWS
 from .happening import LIFTS_OFF, PAINLEVE, RIM_TOUCHES, STANDS_UPRIGHT, TOO_MANY_EVENTS, noted
-from .poses import WIDTH, row_at
+from .poses import sample_at
 from .preparing import (
     beginning,
     check_balance,
@@ -30,7 +30,7 @@ from .preparing import (
     problem,
     start,
 )
-from .records import Record
+from .records import HEAT, SAMPLE, Record, new
 from .repeats import run_all
 from .sliding import beside, checked_nudge
 from .tally import LAST, LEANS, UPRIGHT, begin_tally, energy
@@ -256,17 +256,17 @@ def _followed(state: State, P: Record, t_end: float, how: _How) -> dict[str, Any
     drift = T.drift / (abs(T.C_J) or 1.0)
     pivots = P.law.kind == CONTENSOU or P.drag > 0 or P.delta > 0
     return {"state": _state(W, P), "time_90": T.time_90, "time_stem": T.time_stem, "hops": T.hops,
-            "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[13],
-            "energy_error": energy(W, P) + W.y[13] - E, "C_J_drift": np.nan if pivots else drift,
+            "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[HEAT],
+            "energy_error": energy(W, P) + W.y[HEAT] - E, "C_J_drift": np.nan if pivots else drift,
             "end": "refused" if reason else "stem" if last == STANDS_UPRIGHT else _end(T),
             "reason": reason}  # fmt: skip
 
 
 def _state(W: Record, P: Record) -> list[float]:
     """The fields of the final State."""
-    row, y = np.zeros(WIDTH), W.y
-    row_at(W, P, OPEN, OPEN, row)
-    return [row[1], *row[13:16], row[2], row[3], y[10], y[11], row[21], row[22]]
+    here = new(SAMPLE)
+    sample_at(W, P, OPEN, OPEN, here)
+    return [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2]]
 
 
 def _end(T: Record) -> str:

@@ -11,7 +11,7 @@ from ..types import Array, Number, Rim, Vector
 from .contacts import STARTS, settle
 from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, turning
 from .friction import CONTENSOU, COULOMB, Friction, Law
-from .records import MOTION, PROBLEM, Record, new
+from .records import MOTION, PROBLEM, VZ, Record, Z, new
 from .standing import leaned
 
 SHARE = 0.1  # the tolerance of one step, in units of rtol
@@ -143,7 +143,7 @@ def gap(P: Record, c: Number, s: Number) -> Number:
 def on_table(W: Record, P: Record, i: int) -> None:
     """Sets v_z and z in W.y so that contact i is on the table."""
     arrange(W.y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
-    W.y[14], W.y[15] = W.contacts.G[2], W.contacts.G[3]
+    W.y[VZ], W.y[Z] = W.contacts.G[2], W.contacts.G[3]
 
 
 def start(W: Record, P: Record, theta: float) -> tuple[int, bool]:

@@ -24,6 +24,15 @@ def new(kind: Any) -> Record:
     return np.zeros(1, kind)[0]
 
 
+# The components of a state y, dynamics.py; of z in the variables for a slip that decays, the logarithm of its speed and
+# its direction.
+PX, PY, PZ, PW, CHI, LX, LY, LZ, VX, VY, X, Y, TIME, HEAT, VZ, Z = range(16)
+LOG_U, BETA = VX, VY
+
+# A row of a Trajectory, by the names of its fields.
+SAMPLE = kind(t=float, theta=float, phi=float, psi=float, quaternion=(4,), contact=(2,), com=(3,), omega=(3,),
+              slip=(2,), force=(3,), velocity=(3,), heat=float, regime="i8")  # fmt: skip
+
 # A law of friction, friction.Law.
 LAW = kind(kind="i8", mu=float, mu_s=float, width=float)
 

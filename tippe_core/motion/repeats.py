@@ -9,8 +9,8 @@ from ..types import Array
 from .dynamics import NO_ONE
 from .following import ENDED, MORE, OVER, ROLLS, follow
 from .happening import happens, run
-from .poses import turned
-from .records import Record
+from .poses import tilt, turned
+from .records import CHI, LX, PW, PX, PY, PZ, SAMPLE, TIME, VX, Record, X, Y
 from .stepper import at_share, densely
 from .tally import up_rate, zero
 
@@ -18,7 +18,7 @@ from .tally import up_rate, zero
 @compiled
 def run_all(W: Record, P: Record, log: Array, end: float, flies: bool, steps: int) -> int:
     """Like run(), without samples, and skipping repeated nutations: OVER, MORE or ENDED."""
-    limit, none, rows = W.steps + steps, np.zeros(0), np.zeros((0, 0))
+    limit, none, rows = W.steps + steps, np.zeros(0), np.zeros(0, SAMPLE)
     exact = P.delta == 0.0 and P.drag == 0.0
     while True:
         event = run(W, P, log, none, rows, end, flies, exact, limit - W.steps)
@@ -57,12 +57,12 @@ def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: in
 def turns(W: Record, P: Record, out: Array) -> None:
     """Writes (t, phi, psi, x, y, theta) at a maximum or minimum of theta in the last step into out."""
     S, angles = W.step, W.angles.copy()
-    densely(W, P, NO_ONE, S.new[12] - S.z[12])
+    densely(W, P, NO_ONE, S.new[TIME] - S.z[TIME])
     at_share(S, zero(W, P, True, 0.0, 1.0), S.at)
     turned(S.at, angles)
-    out[0], out[1], out[2] = S.at[12], angles[0] + angles[1], angles[0] - angles[1] + S.at[4]
-    out[3], out[4] = S.at[10], S.at[11]
-    out[5] = 2 * np.arctan2(np.hypot(S.at[0], S.at[1]), np.hypot(S.at[2], S.at[3]))
+    out[0], out[1], out[2] = S.at[TIME], angles[0] + angles[1], angles[0] - angles[1] + S.at[CHI]
+    out[3], out[4] = S.at[X], S.at[Y]
+    out[5] = tilt(S.at)
 
 
 @compiled
@@ -71,21 +71,26 @@ def skip(y: Array, angles: Array, first: Array, second: Array, end: float) -> bo
 
     Each maps the horizontal position G_h of G, as a complex number, to turn G_h + moves, turn = exp i(advance of phi).
     """
-    n = np.floor((end - y[12]) / (second[0] - first[0]))
+    n = np.floor((end - y[TIME]) / (second[0] - first[0]))
     if n < 1.0:
         return False
     phi, psi = second[1] - first[1], second[2] - first[2]
     turn, turns = complex(np.cos(phi), np.sin(phi)), complex(np.cos(n * phi), np.sin(n * phi))
     moves = complex(second[3], second[4]) - turn * complex(first[3], first[4])
-    G = turns * complex(y[10], y[11]) + moves * ((turns - 1) / (turn - 1) if abs(turn - 1) > 1e-9 else n)
-    y[10], y[11] = G.real, G.imag
-    for i in (5, 8):
+    G = turns * complex(y[X], y[Y]) + moves * ((turns - 1) / (turn - 1) if abs(turn - 1) > 1e-9 else n)
+    y[X], y[Y] = G.real, G.imag
+    for i in (LX, VX):
         across = turns * complex(y[i], y[i + 1])
         y[i], y[i + 1] = across.real, across.imag
     c, s = np.cos(n * phi / 2), np.sin(n * phi / 2)
-    y[0], y[1], y[2], y[3] = c * y[0] - s * y[1], c * y[1] + s * y[0], c * y[2] + s * y[3], c * y[3] - s * y[2]
+    y[PX], y[PY], y[PZ], y[PW] = (
+        c * y[PX] - s * y[PY],
+        c * y[PY] + s * y[PX],
+        c * y[PZ] + s * y[PW],
+        c * y[PW] - s * y[PZ],
+    )
     angles[0] += n * phi / 2
     angles[1] += n * phi / 2
-    y[4] += n * psi
-    y[12] += n * (second[0] - first[0])
+    y[CHI] += n * psi
+    y[TIME] += n * (second[0] - first[0])
     return True

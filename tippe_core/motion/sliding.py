@@ -19,7 +19,7 @@ from .dynamics import BALL, OPEN, SLIP, STEM, carried
 from .following import MORE, ROLLS
 from .friction import LAWS, Friction
 from .happening import LIFTS_OFF, NAMES, PAINLEVE, STANDS_UPRIGHT, SUPPORTS, TOO_MANY_TURNS, happens, noted, run
-from .poses import COLUMNS, REGIMES, ROLLING, WIDTH, row_at
+from .poses import REGIMES, ROLLING, sample_at
 from .preparing import (
     beginning,
     check_balance,
@@ -35,7 +35,7 @@ from .preparing import (
     start,
     y_of,
 )
-from .records import Record
+from .records import HEAT, SAMPLE, TIME, Record, X, Y, new
 from .rolling import Rolling
 from .sinking import ANOTHER_TOUCHES, sunk
 from .smooth import first_below
@@ -155,7 +155,7 @@ class _Run:
         y, angles = beginning(state, times[0], P)
         W = self.motion = motion(y, angles)
         self.log = np.zeros((MOST_EVENTS + 2, 3))
-        self.times, self.rows = times, np.zeros((len(times), WIDTH))
+        self.times, self.rows = times, np.zeros(len(times), SAMPLE)
         stands_on, goes_on = start(W, P, state.theta)
         begin_tally(W, P, np.inf)
         first = carried(*W.modes) if goes_on else 1 + stands_on
@@ -170,7 +170,9 @@ class _Run:
         if not count:
             self._alone(stands_on, int(self.log[0, 1]))
             count = 1
-        followed = np.append(np.isfinite(self.rows[:count]).all(axis=1), np.isfinite(W.y).all())
+        rows = self.rows[:count]
+        finite = [np.isfinite(rows[name]).reshape(count, -1).all(axis=1) for name in SAMPLE.names]
+        followed = np.append(np.all(finite, axis=0), np.isfinite(W.y).all())
         if not followed.all():
             raise TopError("friction", self.friction, "weaker friction for this top",
                            "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",
@@ -180,12 +182,10 @@ class _Run:
         for t, name, what in log:
             if name != PAINLEVE:
                 _support(supports, float(t), SUPPORTS[int(what)])
-        parts = {name: np.ascontiguousarray(self.rows[:count, column]) for name, column in COLUMNS.items()}
-        for name in ("t", "theta", "phi", "psi", "heat"):
-            parts[name] = parts[name][:, 0]
-        regime = REGIMES[parts.pop("regime")[:, 0].astype(int)]
-        return Trajectory(top=self.top, events=events, supports=tuple(supports), regime=regime,
-                          time_90=float(W.tally.time_90), **parts)  # fmt: skip
+        parts = {name: rows[name].copy() for name in SAMPLE.names} | {"regime": REGIMES[rows["regime"]]}
+        return Trajectory(
+            top=self.top, events=events, supports=tuple(supports), time_90=float(W.tally.time_90), **parts
+        )
 
     def _follow(self) -> None:
         W, P, times = self.motion, self.P, self.times
@@ -209,19 +209,19 @@ class _Run:
         """Tells progress which fraction of the time is done."""
         if self.progress:
             begins, ends = self.times[0], self.times[-1]
-            self.progress(float(min(1.0, (self.motion.y[12] - begins) / (ends - begins))) if ends > begins else 1.0)
+            self.progress(float(min(1.0, (self.motion.y[TIME] - begins) / (ends - begins))) if ends > begins else 1.0)
 
     def _state(self, y: Array) -> State:
         """The State at y, without the velocity of G."""
         W, P = self.motion, self.P
-        row = np.zeros(WIDTH)
-        row_at(W, P, OPEN, OPEN, row)
-        theta, phi, psi, w1, w2, w3 = *row[1:4], *row[13:16]
+        here = new(SAMPLE)
+        sample_at(W, P, OPEN, OPEN, here)
+        theta, phi, psi, (w1, w2, w3) = here.theta, here.phi, here.psi, here.omega
         if theta in (0.0, np.pi):
             pole = np.cos(theta)  # 1' along omega, as it is just after the pole
             lean = np.angle(pole * (w1 + 1j * pole * w2))
             w1, w2, phi, psi = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean
-        return State(theta, w1, w2, w3, phi, psi, y[10], y[11])
+        return State(theta, w1, w2, w3, phi, psi, y[X], y[Y])
 
     def _roll(self) -> bool:
         """Rolls on the ball, by the exact motion of rolling.py, until an event; returns whether the motion ends with
@@ -245,15 +245,16 @@ class _Run:
             found.append((first_below(lambda t: np.cos(rolling.theta(t)) - P.rim, rolling.period), RIM))
         ends, event = min(found)
         done = int(W.samples)
-        last = y[12] + ends
+        last = y[TIME] + ends
         if np.isnan(W.tally.time_90):
             side = np.sign(np.cos(state.theta))
             passes = first_below(lambda t: side * np.cos(rolling.theta(t)), rolling.period)
-            if y[12] + passes <= min(last, times[-1]):
-                W.tally.time_90 = y[12] + passes
+            if y[TIME] + passes <= min(last, times[-1]):
+                W.tally.time_90 = y[TIME] + passes
         count = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, last)), done)
-        moved = rolling(np.array([y[12], *times[done:count]]))
-        self.rows[done:count] = _rows(moved, y[13])[1:]
+        moved = rolling(np.array([y[TIME], *times[done:count]]))
+        for name in SAMPLE.names:
+            self.rows[name][done:count] = {"heat": y[HEAT], "regime": ROLLING}.get(name, getattr(moved, name)[1:])
         W.samples = count
         if count == len(times):
             return True
@@ -262,7 +263,7 @@ class _Run:
         v, m = versines(theta)
         u = complex(one.velocity[1, 0], one.velocity[1, 1]) * turn
         y[:] = y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
-                    complex(*one.com[1, :2]), last, y[13])  # fmt: skip
+                    complex(*one.com[1, :2]), last, y[HEAT])  # fmt: skip
         W.angles[:] = 0.0, one.phi[1]
         on_table(W, P, BALL)
         return bool(happens(W, P, self.log, event, self.flies))
@@ -275,19 +276,8 @@ class _Run:
             modes[stands_on] = SLIP
         W.contacts.F[:] = 0.0
         W.contacts.F[stands_on, 2] = float(event == STANDS_UPRIGHT)
-        row_at(W, P, modes[0], modes[1], self.rows[0])
-        self.rows[0, 16:18] = 0.0
-
-
-def _rows(moved: Trajectory, heat: float) -> Array:
-    """The rows of COLUMNS for a Trajectory that rolls."""
-    rows = np.empty((len(moved.t), WIDTH))
-    for name, column in COLUMNS.items():
-        if name not in ("heat", "regime"):
-            part = getattr(moved, name)
-            rows[:, column] = part if part.ndim == 2 else part[:, None]
-    rows[:, COLUMNS["heat"]], rows[:, COLUMNS["regime"]] = heat, ROLLING
-    return rows
+        sample_at(W, P, modes[0], modes[1], self.rows[0])
+        self.rows[0].slip = 0.0
 
 
 def _support(supports: list[tuple[float, str]], t: float, what: str) -> None:

@@ -10,7 +10,7 @@ from scipy.integrate import DOP853
 from ..compiled import compiled
 from ..types import Array
 from .dynamics import BALL, STEM, rates
-from .records import Record
+from .records import BETA, LOG_U, TIME, Record
 
 A, B, E3, E5 = (np.ascontiguousarray(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
 A_DENSE, D = np.ascontiguousarray(DOP853.A_EXTRA), np.ascontiguousarray(DOP853.D)
@@ -63,20 +63,20 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
     """The steady beta near that of step.at, at which u' is parallel to u; the rates at which beta relaxes to it and at
     which log|u| grows."""
     S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
-    beta, out, near = S.at[9], S.K[15], 1e-4
+    beta, out, near = S.at[BETA], S.K[15], 1e-4
     for _ in range(3):
-        S.at[9] = beta + near
+        S.at[BETA] = beta + near
         rates(S.at, slowest, ball, stem, P, C, out)
-        beside = out[9]
-        S.at[9] = beta
+        beside = out[BETA]
+        S.at[BETA] = beta
         rates(S.at, slowest, ball, stem, P, C, out)
-        attracts = (out[9] - beside) / near
-        if attracts <= 0.0 or abs(out[9]) > attracts:
-            return S.at[9], 0.0, out[8]
-        beta += out[9] / attracts
-        if abs(out[9]) < 1e-12 * attracts:
+        attracts = (out[BETA] - beside) / near
+        if attracts <= 0.0 or abs(out[BETA]) > attracts:
+            return S.at[BETA], 0.0, out[LOG_U]
+        beta += out[BETA] / attracts
+        if abs(out[BETA]) < 1e-12 * attracts:
             break
-    return beta, attracts, out[8]
+    return beta, attracts, out[LOG_U]
 
 
 @compiled
@@ -90,7 +90,7 @@ def densely(W: Record, P: Record, slowest: int, h: float) -> None:
     for s in range(3):
         stage(S.z, K, A_DENSE[s], STAGES + 1 + s, h, S.at)
         if W.steady:  # as in the earlier stages: otherwise beta diverges, and log|u| with it
-            S.at[9] = steady_direction(W, P, slowest)[0]
+            S.at[BETA] = steady_direction(W, P, slowest)[0]
         rates(S.at, slowest, ball, stem, P, C, K[STAGES + 1 + s])
         if W.steady:
             K[STAGES + 1 + s, 9] = 0.0
@@ -132,13 +132,13 @@ def at_end(S: Record, share: float) -> None:
 @compiled
 def when(S: Record, t: float) -> float:
     """The fraction of the step at which the time is t, by the method of false position (Illinois)."""
-    low, high, f_low, f_high = 0.0, 1.0, S.z[12] - t, S.new[12] - t
+    low, high, f_low, f_high = 0.0, 1.0, S.z[TIME] - t, S.new[TIME] - t
     x, side = 1.0, 0
     for _ in range(60):
         if f_high - f_low <= 0.0:
             break
         x = high - f_high * (high - low) / (f_high - f_low)
-        f = within(S, x, 12) - t
+        f = within(S, x, TIME) - t
         if abs(f) < 1e-14 * (1.0 + abs(t)):
             break
         if f > 0.0:

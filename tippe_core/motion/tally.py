@@ -5,7 +5,8 @@ import numpy as np
 from ..compiled import compiled
 from ..types import Array
 from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
-from .records import Record
+from .poses import tilt
+from .records import LZ, PW, PX, PY, PZ, TIME, Record, Z
 from .stepper import at_end, at_share, densely, when, within
 
 LAST = 0.1  # the last fraction of the time, by which the end is judged
@@ -14,16 +15,16 @@ UPRIGHT, LEANS = 0.2, 0.05  # rad: closer than this to a pole; the tilt changes 
 
 @compiled
 def energy(W: Record, P: Record) -> float:
-    return kinetic(W.y, turning(W.y, P)[2], P) + W.y[15]
+    return kinetic(W.y, turning(W.y, P)[2], P) + W.y[Z]
 
 
 @compiled
 def begin_tally(W: Record, P: Record, since: float) -> None:
     """Starts an empty summary; since: the time from which on the tilt and the supports count."""
     T, (e, _, L3) = W.tally, turning(W.y, P)
-    T.since, T.C_J, T.drift, T.hops, T.seen, T.slips = since, W.y[7] - P.a * L3, 0.0, 0, 0, 0
-    T.time_90 = W.y[12] if e[2] == 0.0 else np.nan
-    T.time_stem = W.y[12] if W.modes[STEM] != OPEN else np.nan
+    T.since, T.C_J, T.drift, T.hops, T.seen, T.slips = since, W.y[LZ] - P.a * L3, 0.0, 0, 0, 0
+    T.time_90 = W.y[TIME] if e[2] == 0.0 else np.nan
+    T.time_stem = W.y[TIME] if W.modes[STEM] != OPEN else np.nan
     T.F_z_least = T.least = np.inf
     T.most = -np.inf
 
@@ -36,8 +37,8 @@ def tally(W: Record, P: Record, N: float) -> None:
     if ball != OPEN or stem != OPEN:
         T.F_z_least = min(T.F_z_least, N)
     if np.isnan(T.time_stem):
-        T.drift = max(T.drift, abs(y[7] - P.a * L3 - T.C_J))
-    if y[12] >= T.since:
+        T.drift = max(T.drift, abs(y[LZ] - P.a * L3 - T.C_J))
+    if y[TIME] >= T.since:
         T.seen |= 1 << carried(ball, stem)
         if ball not in (OPEN, STICK) or stem not in (OPEN, STICK) or (ball == OPEN and stem == OPEN):
             T.slips = 1
@@ -48,7 +49,7 @@ def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense
     """Records when theta first passes 90 degrees, and once that counts the range of theta, within the step of length h
     from step.z, up to the fraction share, from the polynomial of the step. dense: whether it is computed already."""
     T, S = W.tally, W.step
-    e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[12], S.at[12]
+    e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[TIME], S.at[TIME]
     turns = rate * rate1 < 0.0
     near = turns and e * rate < 0.0 and min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) * (ends - begins)
     passes, counts = np.isnan(T.time_90) and (e * e1 <= 0.0 or near), ends >= T.since
@@ -60,7 +61,7 @@ def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense
         densely(W, P, slowest, h)
     turn = zero(W, P, True, 0.0, share) if turns else share
     at_share(S, turn, S.at)
-    there, when_there = up(S.at), within(S, turn, 12)
+    there, when_there = up(S.at), within(S, turn, TIME)
     if counts and when_there >= T.since:
         widen(T, S.at)
     if counts and begins < T.since:
@@ -76,7 +77,7 @@ def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense
 @compiled
 def up(y: Array) -> float:
     """e_z = cos(theta), up to the norm of p."""
-    return y[2] * y[2] + y[3] * y[3] - y[0] * y[0] - y[1] * y[1]
+    return y[PZ] * y[PZ] + y[PW] * y[PW] - y[PX] * y[PX] - y[PY] * y[PY]
 
 
 @compiled
@@ -89,7 +90,7 @@ def up_rate(y: Array, P: Record) -> float:
 @compiled
 def widen(T: Record, y: Array) -> None:
     """Extends the range of tilts by that of y."""
-    theta = 2 * np.arctan2(np.hypot(y[0], y[1]), np.hypot(y[2], y[3]))
+    theta = tilt(y)
     T.least, T.most = min(T.least, theta), max(T.most, theta)
 
 
