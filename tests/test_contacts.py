@@ -22,7 +22,7 @@ from tippe_core import (
     slide,
 )
 from tippe_core.motion.impact import impact as four
-from tippe_core.motion.records import LAW, new
+from tippe_core.motion.records import IMPACT, LAW, new
 
 STEM = TruncatedSphere.paper()
 EDGE = STEM.edge
@@ -41,7 +41,7 @@ def impact(W, u0, friction):
     law.kind, law.mu, law.mu_s, law.width = friction.law
     whole = np.zeros((4, 4))
     whole[:3, :3], whole[3, 3] = W, 1.0
-    return four(whole, np.append(u0, 0.0), law)[:3]
+    return four(whole, np.append(u0, 0.0), law, new(IMPACT))[:3]
 
 
 def law(friction):

@@ -8,7 +8,8 @@ not say what follows. If nothing presses the contact down (u_z' > 0 without cont
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, shared_with_kernels
+from ..paper.search import zero
 from ..types import Array, Bools, Indices
 from .dynamics import (
     BALL,
@@ -145,27 +146,21 @@ def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> N
 @compiled
 def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
     """The direction beta of a slip that begins: u' is parallel to u; if there are several, the fastest-growing one."""
-    best, found, last = -np.inf, 0.0, 0.0
+    best, found, last, given = -np.inf, 0.0, 0.0, (y, ball, stem, i, P, S, C)
     for n in range(DIRECTIONS + 1):
         beta = 2 * np.pi * n / DIRECTIONS
-        now = across(y, beta, ball, stem, i, P, S, C)
+        now = across(beta, *given)
         if n > 0 and last * now <= 0.0:
-            low, high, sign = beta - 2 * np.pi / DIRECTIONS, beta, last
-            for _ in range(50):
-                middle = (low + high) / 2
-                if across(y, middle, ball, stem, i, P, S, C) * sign > 0.0:
-                    low = middle
-                else:
-                    high = middle
-            across(y, high, ball, stem, i, P, S, C)
+            steady = zero(across, beta - 2 * np.pi / DIRECTIONS, beta, given)
+            across(steady, *given)
             if S.K[0, LOG_U] > best:
-                best, found = S.K[0, LOG_U], high
+                best, found = S.K[0, LOG_U], steady
         last = now
     return found
 
 
-@compiled
-def across(y: Array, beta: float, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
+@shared_with_kernels
+def across(beta: float, y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
     """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, LOG_U] is the
     parallel one."""
     S.at[:] = y
@@ -210,7 +205,7 @@ def settle(y: Array, event: int, floor: Array, modes: Indices, P: Record, S: Rec
             if not closed[i] or C.u[i, 2] >= -FALLS:
                 break
             q = moving(y, i, P, C)
-            pushed(y, i, impact(mobility(i, i, y, P, C), q, P.law), P, C)
+            pushed(y, i, impact(mobility(i, i, y, P, C), q, P.law, C.impact), P, C)
     options = np.zeros((2, 3), np.bool_)  # for each contact: open, slip, stick
     moving(y, BALL, P, C)
     for i in range(2):

@@ -12,7 +12,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, shared_with_kernels
+from ..paper.search import zero
 from ..types import Array
 from .dynamics import SLOW
 from .elimination import solve
@@ -27,33 +28,34 @@ Slip: TypeAlias = tuple[float, float, float, float]  # u, w_z
 
 
 @compiled
-def impact(W: Array, start: Array, law: Record) -> Array:
-    """The impulse and the angular impulse about z, (4,), for (u, w_z) = start + W impulse, W (4, 4), start (4,)."""
+def impact(W: Array, start: Array, law: Record, I: Record) -> Array:
+    """The impulse and the angular impulse about z, (4,), for (u, w_z) = start + W impulse, W (4, 4), start (4,). I is
+    working space."""
     scale, holds = np.sqrt(start[0] ** 2 + start[1] ** 2 + start[2] ** 2), law.mu_s > 0.0
-    K, J, new, at = np.zeros((STAGES + 1, 4)), np.zeros(4), np.zeros(4), np.zeros(4)
-    allowed, h = np.full(4, DIGITS * scale), 0.01 * scale
+    I.W[:], I.start[:], I.scale, I.J[:], I.allowed[:] = W, start, scale, 0.0, DIGITS * scale
+    h = 0.01 * scale
     for _ in range(MOST_STEPS):
-        q = after(W, start, J)
+        q = after(I, I.J)
         if holds and spread(q, law) <= STOPPED * scale:
             rest = held(W, q, law)
             most, twists = bounds(law)
             if np.hypot(rest[0], rest[1]) <= most * rest[2] and (rest[3] == 0.0 or abs(rest[3]) <= twists * rest[2]):
-                return J + rest
-            J, holds = J + away(W, q, rest, scale), False
-        found = attempt(W, start, law, scale, J, h, K, at, new, allowed)
-        if not found < 1.0:
-            h *= factor(found, ORDER)
-            continue
-        if after(W, start, new)[2] >= 0.0:
-            return closing(W, start, law, scale, J, h, K, at, new, allowed)
-        J[:] = new
+                return I.J + rest
+            I.J[:], holds = I.J + away(W, q, rest, scale), False
+        found = attempt(I, law, h)
+        if found < 1.0 and after(I, I.new)[2] >= 0.0:  # u_z = 0 within this step: found by varying its length
+            attempt(I, law, zero(rising, 0.0, h, (I, law)))
+            return I.new.copy()
+        if found < 1.0:
+            I.J[:] = I.new
         h *= factor(found, ORDER)
-    return J
+    return I.J.copy()
 
 
 @compiled
-def after(W: Array, start: Array, J: Array) -> Slip:
+def after(I: Record, J: Array) -> Slip:
     """(u, w_z) = start + W J, (4,)."""
+    W, start = I.W, I.start
     return (
         start[0] + W[0, 0] * J[0] + W[0, 1] * J[1] + W[0, 2] * J[2] + W[0, 3] * J[3],
         start[1] + W[1, 0] * J[0] + W[1, 1] * J[1] + W[1, 2] * J[2] + W[1, 3] * J[3],
@@ -88,63 +90,32 @@ def away(W: Array, q: Slip, rest: Array, scale: float) -> Array:
 
 
 @compiled
-def attempt(
-    W: Array,
-    start: Array,
-    law: Record,
-    scale: float,
-    J: Array,
-    h: float,
-    K: Array,
-    at: Array,
-    new: Array,
-    allowed: Array,
-) -> float:
-    """Writes J after one step into new; returns the ratio of its error to the allowed one."""
-    grow(W, start, law, scale, J, K[0])
+def attempt(I: Record, law: Record, h: float) -> float:
+    """Writes the impulse after a step of length h from I.J into I.new; returns the ratio of its error to the allowed
+    one."""
+    grow(I, law, I.J, I.K[0])
     for s in range(1, STAGES):
-        stage(J, K, A[s], s, h, at)
-        grow(W, start, law, scale, at, K[s])
-    stage(J, K, B, STAGES, h, new)
-    grow(W, start, law, scale, new, K[STAGES])
-    return error(K, allowed, h)
+        stage(I.J, I.K, A[s], s, h, I.at)
+        grow(I, law, I.at, I.K[s])
+    stage(I.J, I.K, B, STAGES, h, I.new)
+    grow(I, law, I.new, I.K[STAGES])
+    return error(I.K, I.allowed, h)
+
+
+@shared_with_kernels
+def rising(h: float, I: Record, law: Record) -> float:
+    """u_z after a step of length h."""
+    attempt(I, law, h)
+    return after(I, I.new)[2]
 
 
 @compiled
-def grow(W: Array, start: Array, law: Record, scale: float, J: Array, out: Array) -> None:
+def grow(I: Record, law: Record, J: Array, out: Array) -> None:
     """Writes d(impulse)/dP into out, times |u|/(|u| + SLOW) if the slip may stop, as in dynamics.py."""
-    q = after(W, start, J)
+    q = after(I, J)
     k, t = push(law, q[0] * q[0] + q[1] * q[1], q[3])
     g = 1.0
     if law.kind == COULOMB or law.kind == CONTENSOU:
         speed = spread(q, law)
-        g = speed / (speed + SLOW * scale)
+        g = speed / (speed + SLOW * I.scale)
     out[0], out[1], out[2], out[3] = -k * q[0] * g, -k * q[1] * g, g, -t * g
-
-
-@compiled
-def closing(
-    W: Array,
-    start: Array,
-    law: Record,
-    scale: float,
-    J: Array,
-    h: float,
-    K: Array,
-    at: Array,
-    new: Array,
-    allowed: Array,
-) -> Array:
-    """The impulse at which u_z = 0, within the step of length h from J, found by varying the step (false position)."""
-    low, high, f_low, f_high, side = 0.0, h, after(W, start, J)[2], after(W, start, new)[2], 0
-    for _ in range(60):
-        x = high - f_high * (high - low) / (f_high - f_low)
-        attempt(W, start, law, scale, J, x, K, at, new, allowed)
-        f = after(W, start, new)[2]
-        if abs(f) < 1e-15 * scale or high - low < 1e-15 * h:
-            break
-        if f > 0.0:
-            high, f_high, f_low, side = x, f, (f_low / 2 if side > 0 else f_low), 1
-        else:
-            low, f_low, f_high, side = x, f, (f_high / 2 if side < 0 else f_high), -1
-    return new

@@ -41,12 +41,16 @@ LAW = kind(kind="i8", mu=float, mu_s=float, width=float)
 PROBLEM = kind(a=float, I1=float, I3=float, k=float, law=LAW, stem="i8", b=float, h=float, q=float, rim=float,
                delta=float, drag=float, tolerance=float)  # fmt: skip
 
+# An impact, impact.py: (u, w_z) = start + W impulse; its speed; the impulse before a step, at a stage and after it, its
+# rates at the stages, the errors allowed.
+IMPACT = kind(W=(4, 4), start=(4,), scale=float, J=(4,), K=(13, 4), at=(4,), new=(4,), allowed=(4,))
+
 # The values at one instant. For ball and stem: rho, rho', u, u' without the contact forces, F, M (torques in addition
 # to rho x F), heights above the table. G: v and z of G. Then v', L', w'; the columns, the force and the torque about G
-# of each unknown; the contact, and the component of its u', to which each belongs; and the equations for them.
+# of each unknown; the contact, and the component of its u', to which each belongs; the equations for them; an impact.
 CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(2, 3), height=(2,), G=(4,), v_dot=(3,),
                 L_dot=(3,), w_dot=(3,), columns=(7, 6), owner=("i8", (7,)), part=("i8", (7,)), matrix=(7, 7),
-                right=(7,))  # fmt: skip
+                right=(7,), impact=IMPACT)  # fmt: skip
 
 # A step of stepper.py: the rates at its stages, z before and after it and at a stage, the scales of z, the coefficients
 # of the polynomial; and those of implicit.py: its stages, the Jacobian and the equations for a stage.

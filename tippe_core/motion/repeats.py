@@ -5,6 +5,7 @@ skipped."""
 import numpy as np
 
 from ..compiled import compiled
+from ..paper.search import zero
 from ..types import Array
 from .dynamics import NO_ONE
 from .following import ENDED, MORE, OVER, ROLLS, follow
@@ -12,7 +13,7 @@ from .happening import happens, run
 from .poses import tilt, turned
 from .records import CHI, LX, PW, PX, PY, PZ, SAMPLE, TIME, VX, Record, X, Y
 from .stepper import at_share, densely
-from .tally import up_rate, zero
+from .tally import up_rate, up_rate_at
 
 
 @compiled
@@ -58,7 +59,7 @@ def turns(W: Record, P: Record, out: Array) -> None:
     """Writes (t, phi, psi, x, y, theta) at a maximum or minimum of theta in the last step into out."""
     S, angles = W.step, W.angles.copy()
     densely(W, P, NO_ONE, S.new[TIME] - S.z[TIME])
-    at_share(S, zero(W, P, True, 0.0, 1.0), S.at)
+    at_share(S, zero(up_rate_at, 0.0, 1.0, (S, P)), S.at)
     turned(S.at, angles)
     out[0], out[1], out[2] = S.at[TIME], angles[0] + angles[1], angles[0] - angles[1] + S.at[CHI]
     out[3], out[4] = S.at[X], S.at[Y]

@@ -22,12 +22,12 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from ..compiled import compiled
 from ..errors import TopError, single
 from ..paper import equations as eq
 from ..paper.constants import EXACT, State, exact_top, versines
+from ..paper.search import zero
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import solve
 from ..types import Array
@@ -219,7 +219,7 @@ def first_below(function: Callable[[Array], Array], period: float) -> float:
 
     def crossing(times: Array, values: Array) -> float:
         i = int(np.argmax(values < 0))
-        return 0.0 if i == 0 else brentq(lambda x: function(np.array([x]))[0], times[i - 1], times[i], xtol=1e-13)
+        return 0.0 if i == 0 else zero(lambda x: function(np.array([x]))[0], times[i - 1], times[i], ())
 
     dips = np.flatnonzero((values[1:-1] < values[:-2]) & (values[1:-1] <= values[2:])) + 1
     first = int(np.argmax(values < 0)) if np.any(values < 0) else len(t)

@@ -7,7 +7,8 @@ It solves dz/dtau = rates(z) of dynamics.py; impact.py uses the same coefficient
 import numpy as np
 from scipy.integrate import DOP853
 
-from ..compiled import compiled
+from ..compiled import compiled, shared_with_kernels
+from ..paper.search import zero
 from ..types import Array
 from .dynamics import BALL, STEM, rates
 from .records import BETA, LOG_U, TIME, Record
@@ -93,7 +94,7 @@ def densely(W: Record, P: Record, slowest: int, h: float) -> None:
             S.at[BETA] = steady_direction(W, P, slowest)[0]
         rates(S.at, slowest, ball, stem, P, C, K[STAGES + 1 + s])
         if W.steady:
-            K[STAGES + 1 + s, 9] = 0.0
+            K[STAGES + 1 + s, BETA] = 0.0
     for i in range(16):
         moved = S.new[i] - S.z[i]
         F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])
@@ -129,20 +130,13 @@ def at_end(S: Record, share: float) -> None:
         at_share(S, share, S.at)
 
 
+@shared_with_kernels
+def lateness(x: float, S: Record, t: float) -> float:
+    """How long after t the time at the fraction x of the step is."""
+    return within(S, x, TIME) - t
+
+
 @compiled
 def when(S: Record, t: float) -> float:
-    """The fraction of the step at which the time is t, by the method of false position (Illinois)."""
-    low, high, f_low, f_high = 0.0, 1.0, S.z[TIME] - t, S.new[TIME] - t
-    x, side = 1.0, 0
-    for _ in range(60):
-        if f_high - f_low <= 0.0:
-            break
-        x = high - f_high * (high - low) / (f_high - f_low)
-        f = within(S, x, TIME) - t
-        if abs(f) < 1e-14 * (1.0 + abs(t)):
-            break
-        if f > 0.0:
-            high, f_high, f_low, side = x, f, (f_low / 2 if side > 0 else f_low), 1
-        else:
-            low, f_low, f_high, side = x, f, (f_high / 2 if side < 0 else f_high), -1
-    return x
+    """The fraction of the step at which the time is t."""
+    return zero(lateness, 0.0, 1.0, (S, t))

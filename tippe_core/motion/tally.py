@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, shared_with_kernels
+from ..paper.search import zero
 from ..types import Array
 from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
 from .poses import tilt
@@ -59,7 +60,7 @@ def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense
         return
     if not dense:
         densely(W, P, slowest, h)
-    turn = zero(W, P, True, 0.0, share) if turns else share
+    turn = zero(up_rate_at, 0.0, share, (S, P)) if turns else share
     at_share(S, turn, S.at)
     there, when_there = up(S.at), within(S, turn, TIME)
     if counts and when_there >= T.since:
@@ -68,9 +69,9 @@ def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense
         at_share(S, when(S, T.since), S.at)
         widen(T, S.at)
     if passes and e * there <= 0.0:
-        T.time_90 = within(S, zero(W, P, False, 0.0, turn), 12)
+        T.time_90 = within(S, zero(up_at, 0.0, turn, (S,)), 12)
     elif passes and e * e1 <= 0.0:
-        T.time_90 = within(S, zero(W, P, False, turn, share), 12)
+        T.time_90 = within(S, zero(up_at, turn, share, (S,)), 12)
     at_end(S, share)
 
 
@@ -94,17 +95,15 @@ def widen(T: Record, y: Array) -> None:
     T.least, T.most = min(T.least, theta), max(T.most, theta)
 
 
-@compiled
-def zero(W: Record, P: Record, of_rate: bool, low: float, high: float) -> float:
-    """The fraction of the step, between low and high, at which e_z' (of_rate) or e_z passes through 0, by bisection."""
-    S = W.step
-    at_share(S, high, S.at)
-    beyond = up_rate(S.at, P) if of_rate else up(S.at)
-    for _ in range(50):
-        x = (low + high) / 2
-        at_share(S, x, S.at)
-        if (up_rate(S.at, P) if of_rate else up(S.at)) * beyond > 0.0:
-            high = x
-        else:
-            low = x
-    return high
+@shared_with_kernels
+def up_at(x: float, S: Record) -> float:
+    """up() at the fraction x of the step."""
+    at_share(S, x, S.at)
+    return up(S.at)
+
+
+@shared_with_kernels
+def up_rate_at(x: float, S: Record, P: Record) -> float:
+    """up_rate() at the fraction x of the step."""
+    at_share(S, x, S.at)
+    return up_rate(S.at, P)

@@ -1,6 +1,7 @@
 """Guards along a step: whether one of them falls below 0, and where."""
 
-from ..compiled import compiled
+from ..compiled import compiled, shared_with_kernels
+from ..paper.search import fallen
 from .contacts import GUARDS, TOUCHES, first_negative, guards
 from .dynamics import BALL, NO_ONE, STEM
 from .records import Record
@@ -37,8 +38,8 @@ def watched(W: Record, P: Record, slowest: int, x: float) -> None:
     guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
 
 
-@compiled
-def height_or_guard(W: Record, P: Record, slowest: int, i: int, x: float, touches: bool) -> float:
+@shared_with_kernels
+def height_or_guard(x: float, W: Record, P: Record, slowest: int, i: int, touches: bool) -> float:
     """Guard i at the fraction x of the step; for one that touches, the height."""
     watched(W, P, slowest, x)
     return W.contacts.height[i - TOUCHES] if touches else W.guards[i]
@@ -46,22 +47,8 @@ def height_or_guard(W: Record, P: Record, slowest: int, i: int, x: float, touche
 
 @compiled
 def crossing(W: Record, P: Record, slowest: int, i: int, low: float, high: float) -> float:
-    """The fraction of the step, between low and high, at which guard i falls below 0, by false position and bisection
-    in turn."""
-    touches = TOUCHES <= i < TOUCHES + 2 and height_or_guard(W, P, slowest, i, low, True) > 0.0
-    f_low = height_or_guard(W, P, slowest, i, low, touches)
-    f_high = height_or_guard(W, P, slowest, i, high, touches)
-    if f_low <= 0.0:
+    """The fraction of the step, between low and high, at which guard i falls below 0."""
+    touches = TOUCHES <= i < TOUCHES + 2 and height_or_guard(low, W, P, slowest, i, True) > 0.0
+    if height_or_guard(low, W, P, slowest, i, touches) <= 0.0:
         return low
-    for n in range(60):
-        if high - low < 1e-14:
-            break
-        x = (low + high) / 2 if n % 3 == 2 else low + (high - low) * f_low / (f_low - f_high)
-        f = height_or_guard(W, P, slowest, i, x, touches)
-        if f > 0.0:
-            low, f_low = x, f
-        else:
-            high, f_high = x, f
-        if f == 0.0:
-            break
-    return high
+    return fallen(height_or_guard, low, high, (W, P, slowest, i, touches))

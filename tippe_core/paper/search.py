@@ -12,11 +12,28 @@ Arguments: TypeAlias = tuple[Any, ...]  # further arguments of the function, aft
 
 @shared_with_kernels
 def zero(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-8) -> float:
-    """The zero of function(x, *args) between low and high, 0 <= low < high, where it has opposite signs.
+    """The zero of function(x, *args) between low and high, as in bracket(). A last linear interpolation squares the
+    relative error `part`."""
+    x, y, opposite, y_opposite = bracket(function, low, high, args, part)
+    return x + y / (y - y_opposite) * (opposite - x) if y != y_opposite else x
+
+
+@shared_with_kernels
+def fallen(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-14) -> float:
+    """Where function(x, *args) has just ceased to be positive between low, where it is, and high, as in bracket()."""
+    x, y, opposite, _ = bracket(function, low, high, args, part)
+    return opposite if y > 0 else x
+
+
+@shared_with_kernels
+def bracket(
+    function: Callable[..., float], low: float, high: float, args: Arguments, part: float
+) -> tuple[float, float, float, float]:
+    """(x, y, opposite, y_opposite): two points close to a zero of function(x, *args) between low and high,
+    0 <= low < high, where it has opposite signs, and its values there.
 
     Inverse quadratic interpolation where that is safe, otherwise bisection (T. R. Chandrupatla, Adv. Eng. Softw. 28,
-    145 (1997)), until the bracket has shrunk to the fraction `part` of x and of its first width. A last linear
-    interpolation squares the relative error.
+    145 (1997)), until the bracket has shrunk to the fraction `part` of x and of its first width.
     """
     x, y = high, function(high, *args)  # the newest
     opposite, y_opposite = low, function(low, *args)
@@ -42,7 +59,7 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
                 share = near * y_last / (y_opposite - y_last)
                 share += (last - x) / (opposite - x) * far * y_opposite / (y_last - y_opposite)
         share = min(max(share, within), 1 - within)
-    return x + y / (y - y_opposite) * (opposite - x) if y != y_opposite else x
+    return x, y, opposite, y_opposite
 
 
 @shared_with_kernels
