@@ -34,8 +34,8 @@ def files(names):
 
 PAPER = ["equations", "poles", "constants", "curve", "forces", "wells", "limits"]
 ROLLING = ["differences", "nutation", "phase", "series", "crowding", "rolling"]
-SLIDING = ["friction", "dynamics", "stepper", "following", "happening", "contacts", "impact", "impulses", "standing",
-           "preparing", "poses", "repeats", "sliding", "many", "tally"]  # fmt: skip
+SLIDING = ["friction", "dynamics", "stepper", "run", "events", "contacts", "impact", "impulses", "standing",
+           "preparing", "poses", "periodic", "sliding", "many", "summary"]  # fmt: skip
 CORE = [*PAPER, *ROLLING, "smooth", *SLIDING]
 APP = [
     "explorer",
@@ -64,7 +64,7 @@ FIRST = {
     "friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py", "test_stick_slip.py"],
     "dynamics": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py", "test_contacts.py", "test_impacts.py"],
     "standing": ["test_contacts.py", "test_impacts.py"],
-    **{name: ["test_many.py", "test_contacts.py", "test_impacts.py"] for name in ("repeats", "many", "tally")},
+    **{name: ["test_many.py", "test_contacts.py", "test_impacts.py"] for name in ("periodic", "many", "summary")},
 }
 OF_APP = {
     **{

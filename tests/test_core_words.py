@@ -16,7 +16,7 @@ from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
 from tippe_core.motion.contacts import HALTS, LEAVES, SLIPS, TOUCHES
 from tippe_core.motion.dynamics import OPEN, SLIP
-from tippe_core.motion.happening import NAMES, change
+from tippe_core.motion.events import EVENTS, change
 from tippe_core.motion.sinking import ANOTHER_TOUCHES
 
 
@@ -33,8 +33,8 @@ def test_every_event_has_words(language):
     contacts = [(ball, stem) for ball in (OPEN, SLIP) for stem in (OPEN, SLIP)]
     for before in contacts:
         for after in contacts:
-            for event in [kind + i for kind in (HALTS, SLIPS, TOUCHES, LEAVES) for i in (0, 1)]:
-                names.add(NAMES[change(*before, *after, event)])
+            for event in [(kind, i) for kind in (HALTS, SLIPS, TOUCHES, LEAVES) for i in (0, 1)]:
+                names.add(EVENTS[change(*before, *after, event)][0])
     assert len(names) >= 13
     assert {*listed("planes.events", language)} == names | {THROWN, ANOTHER_TOUCHES}
 

@@ -11,6 +11,7 @@ from .bodies.rocking import Measured, a_from_rocking, dimension_from_rocking, ro
 from .bodies.shape import Shape, Turned
 from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
+from .classify import UPRIGHT
 from .endings import Ending, Stretch, ending
 from .errors import NoMotionError, TopError
 from .linear import spinning_modes, tumbling_modes
@@ -22,7 +23,6 @@ from .motion.rolling import Rolling, roll
 from .motion.sinking import SUNK, lowest, sunk
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
-from .motion.tally import UPRIGHT
 from .motion.trajectory import Ledger, Trajectory
 from .outcomes import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
 from .paper.constants import Constants, State

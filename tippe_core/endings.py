@@ -5,9 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .classify import LAST, LEANS, judged
 from .errors import TopError
+from .motion.events import ENDS, EVENTS
 from .motion.sinking import ANOTHER_TOUCHES
-from .motion.tally import LAST, LEANS, UPRIGHT
 from .motion.trajectory import Trajectory
 from .outcomes import steady_states
 from .types import Bools
@@ -18,7 +19,7 @@ QUIET = 1e-3
 # is there.
 CREEPS, THERE = 1e-3, 3.5e-3
 REFUSED = ("rim touches", ANOTHER_TOUCHES, "Painleve's limit")
-STOPS = ("stands upright", "too many events", "too many turns", *REFUSED)
+STOPS = (*(name for name, after in EVENTS if after == ENDS), ANOTHER_TOUCHES)
 
 
 class Stretch(NamedTuple):
@@ -75,18 +76,7 @@ def ending(trajectory: Trajectory) -> Ending:
     on = carries.pop() if len(carries) == 1 else ""
     rolls = bool(np.all(moved.regime[last] == "roll"))
     settled = not ended and (_swings(moved) if rolls else most - least < LEANS and _quiet(moved, last, on))
-    if ended in REFUSED:
-        end = "refused"
-    elif on == "stem":
-        end = "stem"
-    elif on == "ball" and most < UPRIGHT:
-        end = "upright"
-    elif on == "ball" and least > np.pi - UPRIGHT:
-        end = "inverted"
-    elif most - least < LEANS:
-        end = "leaning"
-    else:
-        end = "rolling" if rolls else "moving"
+    end = judged(ended in REFUSED, on, least, most, rolls)
     creeps = settled and not rolls and on == "ball" and _creeps(moved, last)
     return Ending(found, end, on, float(since), least, most, ended, flat=ended == "stands upright", settled=settled,
                   cut=not ended and not settled, creeps=creeps)  # fmt: skip

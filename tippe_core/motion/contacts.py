@@ -6,6 +6,8 @@ du_z'/dN must be positive. If friction is too strong for that, no N balances it,
 not say what follows. If nothing presses the contact down (u_z' > 0 without contact forces), it opens instead.
 """
 
+from typing import TypeAlias
+
 import numpy as np
 
 from ..compiled import compiled, shared_with_kernels
@@ -31,10 +33,10 @@ from .impulses import mobility, moving, pushed, rests
 from .records import BETA, HEAT, LOG_U, PW, PX, PY, PZ, VX, VY, VZ, Record, Z
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
 
-# Events; those with room for two numbers are counted as event + contact: a guard falls below 0, a contact comes to
-# rest, the start.
-BALANCES, LEAVES, SLIPS, TOUCHES, STANDS_UP, ROCKS, RIM, GUARDS = 0, 1, 3, 5, 7, 8, 9, 10
-HALTS, STARTS = 10, 12
+# An event is (kind, contact). Its kinds: a guard falls below 0, a contact comes to rest, the start.
+BALANCES, LEAVES, SLIPS, TOUCHES, STANDS_UP, ROCKS, RIM, HALTS, STARTS = range(9)
+NONE = -1
+Event: TypeAlias = tuple[int, int]
 
 # STILL: slip below which the rest of the motion to a halt takes far less time than 1e-9, to which events are located.
 # SLACK (Mg), TOUCH (R): smaller values count as 0. LEAST: the smallest du_z'/dN allowed, relative to that without
@@ -81,27 +83,27 @@ def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -
 def guards(
     y: Array, slowest: int, ball: int, stem: int, floor: Array, P: Record, S: Record, C: Record, out: Array
 ) -> None:
-    """Writes the guards, which must not become negative, into out (GUARDS,). floor: heights that count as the
-    table's."""
+    """Writes the guards, which must not become negative, into out[kind, contact]; what is of the whole top, into that
+    of the ball. floor: heights that count as the table's."""
     e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
     out[:] = 1.0
-    out[BALANCES] = forces(turn, ball, stem, P, C) - LEAST
+    out[BALANCES, BALL] = forces(turn, ball, stem, P, C) - LEAST
     for i in range(1 + P.stem):
         mode = ball if i == BALL else stem
         if mode == OPEN:
-            out[TOUCHES + i] = max(C.height[i] - floor[i] + TOUCH, C.u[i, 2] + SLACK)
+            out[TOUCHES, i] = max(C.height[i] - floor[i] + TOUCH, C.u[i, 2] + SLACK)
         else:
-            out[LEAVES + i] = C.F[i, 2] + SLACK
+            out[LEAVES, i] = C.F[i, 2] + SLACK
         if mode == STICK:
-            out[SLIPS + i] = spare(i, P, C, ball == OPEN or stem == OPEN) + SLACK
-    out[RIM] = e[2] - P.rim
+            out[SLIPS, i] = spare(i, P, C, ball == OPEN or stem == OPEN) + SLACK
+    out[RIM, BALL] = e[2] - P.rim
     if stem != OPEN and P.b > 0.0 and e[2] < 0.0:
         edge = P.b, P.h, P.q
         s, rate = leaning(e, w)
         S.at[:] = y
         known(S.at, C)
-        out[STANDS_UP] = max(s / STANDS - 1, energy_above_rest(P, edge, S.at, L3) - tipping_energy(P, edge))
-        out[ROCKS] = max(s / FLAT - 1, rate + SLACK)
+        out[STANDS_UP, BALL] = max(s / STANDS - 1, energy_above_rest(P, edge, S.at, L3) - tipping_energy(P, edge))
+        out[ROCKS, BALL] = max(s / FLAT - 1, rate + SLACK)
 
 
 @compiled
@@ -111,12 +113,13 @@ def known(y: Array, C: Record) -> None:
 
 
 @compiled
-def first_negative(found: Array) -> int:
-    """The index of the first guard below 0 (or nan), or NO_ONE."""
-    for i in range(GUARDS):
-        if not found[i] >= 0.0:
-            return i
-    return NO_ONE
+def first_negative(found: Array) -> Event:
+    """The event of the first guard below 0 (or nan), or NONE."""
+    for kind in range(len(found)):
+        for i in range(2):
+            if not found[kind, i] >= 0.0:
+                return kind, i
+    return NONE, BALL
 
 
 # ---- touching, leaving ----
@@ -186,18 +189,19 @@ def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -
 
 
 @compiled
-def settle(y: Array, event: int, floor: Array, modes: Indices, P: Record, S: Record, C: Record) -> bool:
+def settle(y: Array, event: Event, modes: Indices, P: Record, S: Record, C: Record) -> bool:
     """y after the event, including any impact, and the modes in which the motion continues; False beyond Painleve's
     limit."""
-    if event == ROCKS:
+    kind, contact = event
+    if kind == ROCKS:
         rocked(y, P, C)
     moving(y, BALL, P, C)
     closed = np.zeros(2, np.bool_)
     for i in range(1 + P.stem):
-        closed[i] = C.height[i] < CLOSED or (i == STEM and event == ROCKS)
-        if event >= STARTS:
-            closed[i] = event == STARTS + i or (closed[i] and abs(C.u[i, 2]) < CLOSED)
-    if event == ROCKS or TOUCHES <= event < TOUCHES + 2:
+        closed[i] = C.height[i] < CLOSED or (i == STEM and kind == ROCKS)
+        if kind == STARTS:
+            closed[i] = i == contact or (closed[i] and abs(C.u[i, 2]) < CLOSED)
+    if kind == ROCKS or kind == TOUCHES:
         soften(y, closed, P, C)
         for _ in range(1000):
             moving(y, BALL, P, C)
@@ -213,9 +217,9 @@ def settle(y: Array, event: int, floor: Array, modes: Indices, P: Record, S: Rec
         options[i, SLIP] = closed[i] and C.u[i, 2] < CLOSED
     for i in range(1 + P.stem):
         options[i, STICK] = options[i, SLIP] and rests(y, i, P, C)
-        if options[i, SLIP] and event < STARTS:  # this is decided; otherwise rounding might decide
-            for kind, mode in ((LEAVES, OPEN), (SLIPS, SLIP), (HALTS, STICK)):
-                if event == kind + i:
+        if options[i, SLIP] and i == contact:  # this is decided; otherwise rounding might decide
+            for decides, mode in ((LEAVES, OPEN), (SLIPS, SLIP), (HALTS, STICK)):
+                if kind == decides:
                     options[i, :] = False
                     options[i, mode] = True
     return choose(y, options, modes, P, S, C)

@@ -10,14 +10,25 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..classify import LAST, judged
 from ..errors import TopError, common_shape, has_arrays, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
 from .dynamics import OPEN, carried
-from .following import ENDED, MORE
+from .events import (
+    FIRST_TOUCH,
+    LIFTS_OFF,
+    PAINLEVE,
+    PASSES_90,
+    RIM_TOUCHES,
+    STANDS_UPRIGHT,
+    SUPPORTS,
+    TOO_MANY_EVENTS,
+    logged,
+)
 from .friction import CONTENSOU, LAWS
-from .happening import LIFTS_OFF, PAINLEVE, RIM_TOUCHES, STANDS_UPRIGHT, TOO_MANY_EVENTS, noted
+from .periodic import run_all
 from .poses import sample_at
 from .preparing import (
     beginning,
@@ -30,10 +41,10 @@ from .preparing import (
     problem,
     start,
 )
-from .records import HEAT, SAMPLE, Record, new
-from .repeats import run_all
+from .records import HEAT, LOG, SAMPLE, Record, new
+from .run import ENDED, MORE
 from .sliding import beside, checked_nudge
-from .tally import LAST, LEANS, UPRIGHT, begin_tally, energy
+from .summary import begin, energy
 
 MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # in one motion
 EACH = 20_000  # steps between two checks for a stop
@@ -240,26 +251,28 @@ REASONS = {PAINLEVE: "too-strong", RIM_TOUCHES: "beyond-rim", TOO_MANY_EVENTS: "
 
 def _followed(state: State, P: Record, t_end: float, how: _How) -> dict[str, Any]:
     y, angles = beginning(state, 0.0, P)
-    W, log, status = motion(y, angles), np.zeros((MOST_EVENTS + 2, 3)), ENDED
+    W, log, status = motion(y, angles), np.zeros(2 * MOST_EVENTS, LOG), ENDED
     _, goes_on = start(W, P, state.theta)
     E = energy(W, P)
-    begin_tally(W, P, (1 - LAST) * t_end)
+    begin(W, P, log, (1 - LAST) * t_end)
     if goes_on and not carried(*W.modes) and not how.flies:
-        noted(W, log, LIFTS_OFF, OPEN, OPEN)
+        logged(W, log, LIFTS_OFF, OPEN, OPEN)
     elif goes_on:
         status = MORE
         while status == MORE and W.steps < MOST_STEPS and not (how.stop and how.stop.is_set()):
             status = run_all(W, P, log, t_end, how.flies, EACH)
-    T, last = W.tally, int(log[W.events - 1, 1]) if status == ENDED and W.events else -1
+    T, last = W.summary, log[W.logged - 1].name if status == ENDED and W.logged else -1
+    first = {name: t for t, name, _ in log[W.logged - 1 :: -1].tolist()} if W.logged else {}
     reason = ("too-strong" if not goes_on else "too-many-steps" if status == MORE
               else REASONS.get(last, "") if np.all(np.isfinite(W.y)) else "not-followed")  # fmt: skip
+    on = "stem" if last == STANDS_UPRIGHT else {1 << carried: on for carried, on in enumerate(SUPPORTS)}.get(T.seen, "")
     drift = T.drift / (abs(T.C_J) or 1.0)
     pivots = P.law.kind == CONTENSOU or P.drag > 0 or P.delta > 0
-    return {"state": _state(W, P), "time_90": T.time_90, "time_stem": T.time_stem, "hops": T.hops,
+    return {"state": _state(W, P), "time_90": first.get(PASSES_90, np.nan),
+            "time_stem": first.get(FIRST_TOUCH, np.nan), "hops": T.hops,
             "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[HEAT],
             "energy_error": energy(W, P) + W.y[HEAT] - E, "C_J_drift": np.nan if pivots else drift,
-            "end": "refused" if reason else "stem" if last == STANDS_UPRIGHT else _end(T),
-            "reason": reason}  # fmt: skip
+            "end": judged(bool(reason), on, T.least, T.most, not T.slips), "reason": reason}  # fmt: skip
 
 
 def _state(W: Record, P: Record) -> list[float]:
@@ -267,20 +280,6 @@ def _state(W: Record, P: Record) -> list[float]:
     here = new(SAMPLE)
     sample_at(W, P, OPEN, OPEN, here)
     return [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2]]
-
-
-def _end(T: Record) -> str:
-    """The word for the end, from the tilt and the supports in the last part of the time: bits 1, 2, 4, 8 of T.seen for
-    none, ball, stem, both."""
-    if T.seen == 4:
-        return "stem"
-    if T.seen == 2 and T.most < UPRIGHT:
-        return "upright"
-    if T.seen == 2 and T.least > np.pi - UPRIGHT:
-        return "inverted"
-    if T.most - T.least < LEANS:
-        return "leaning"
-    return "moving" if T.slips else "rolling"
 
 
 def _many(found: list[dict[str, Any]], shape: tuple[int, ...]) -> Many:

@@ -161,4 +161,4 @@ def started(W: Record, P: Record, i: int) -> bool:
     if i == STEM and P.b > 0.0:
         y[:] = leaned(y, e, w)
     on_table(W, P, i)
-    return settle(y, STARTS + i, W.floor, W.modes, P, W.step, W.contacts)
+    return settle(y, (STARTS, i), W.modes, P, W.step, W.contacts)

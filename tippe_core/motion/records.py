@@ -57,15 +57,18 @@ CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(
 STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16),
             U=(8, 16), J=(16, 9), matrix=(9, 9), pivots=("i8", (9,)), right=(9,))  # fmt: skip
 
-# The summary of a motion, tally.py.
-TALLY = kind(since=float, C_J=float, drift=float, time_90=float, time_stem=float, hops="i8", F_z_least=float,
-             least=float, most=float, seen="i8", slips="i8")  # fmt: skip
+# The summary of a motion, summary.py.
+SUMMARY = kind(since=float, C_J=float, drift=float, touched="i8", hops="i8", F_z_least=float, least=float, most=float,
+               seen="i8", slips="i8")  # fmt: skip
+
+# An entry of the log of a motion: a time; what happened, by its place in events.EVENTS; and carried() after it.
+LOG = kind(t=float, name="i8", supports="i8")
 
 # A motion: y, the modes of ball and stem, the heights that count as the table's (slightly below 0 for contacts that
-# have just opened), the angles of poses.py, the next step, the guards; the numbers of samples, events and steps;
-# whether a stretch begins, whether the rates at y are in step.K; the slowest contact with its log|u| and beta, and
-# whether beta is kept steady; whether the next step is
-# to be implicit, and whether the last one was.
-MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(10,), samples="i8", events="i8",
-              steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8", stiff="i8", implicit="i8",
-              step=STEP, contacts=CONTACTS, tally=TALLY)  # fmt: skip
+# have just opened), the angles of poses.py, the next step, the guards; the numbers of samples, of events, of entries of
+# the log and of steps; whether a stretch begins, whether the rates at y are in step.K; the slowest contact with its
+# log|u| and beta, and whether beta is kept steady; whether the next step is to be implicit, and whether the last one
+# was.
+MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(7, 2), samples="i8", events="i8",
+              logged="i8", steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8", stiff="i8",
+              implicit="i8", step=STEP, contacts=CONTACTS, summary=SUMMARY)  # fmt: skip

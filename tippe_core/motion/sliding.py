@@ -6,6 +6,8 @@ in contacts.py, impact.py and standing.py. This file checks the arguments and bu
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,11 +16,24 @@ from ..errors import TopError, finite, single
 from ..paper.constants import State, versines
 from ..paper.top import Top
 from ..types import Array, Number
-from .contacts import RIM, SLACK, SLIPS, TOUCH, TOUCHES
+from .contacts import RIM, SLACK, SLIPS, TOUCH, TOUCHES, Event
 from .dynamics import BALL, OPEN, SLIP, STEM, carried
-from .following import MORE, ROLLS
+from .events import (
+    EVENTS,
+    LIFTS_OFF,
+    NOTED,
+    NOTES,
+    PAINLEVE,
+    PASSES_90,
+    STANDS_UPRIGHT,
+    SUPPORTS,
+    TOO_MANY_TURNS,
+    happens,
+    logged,
+    noted,
+    noted_values,
+)
 from .friction import LAWS, Friction
-from .happening import LIFTS_OFF, NAMES, PAINLEVE, STANDS_UPRIGHT, SUPPORTS, TOO_MANY_TURNS, happens, noted, run
 from .poses import REGIMES, ROLLING, sample_at
 from .preparing import (
     beginning,
@@ -35,11 +50,12 @@ from .preparing import (
     start,
     y_of,
 )
-from .records import HEAT, SAMPLE, TIME, Record, X, Y, new
+from .records import HEAT, LOG, SAMPLE, TIME, Record, X, Y, new
 from .rolling import Rolling
+from .run import MORE, ROLLS, run
 from .sinking import ANOTHER_TOUCHES, sunk
-from .smooth import first_below
-from .tally import begin_tally
+from .smooth import first_below, zeros
+from .summary import begin
 from .trajectory import Trajectory, checked_times
 
 MOST_EVENTS = 10_000
@@ -154,21 +170,21 @@ class _Run:
         P = self.P
         y, angles = beginning(state, times[0], P)
         W = self.motion = motion(y, angles)
-        self.log = np.zeros((MOST_EVENTS + 2, 3))
+        self.log = np.zeros(2 * MOST_EVENTS, LOG)
         self.times, self.rows = times, np.zeros(len(times), SAMPLE)
         stands_on, goes_on = start(W, P, state.theta)
-        begin_tally(W, P, np.inf)
+        begin(W, P, self.log, np.inf)
         first = carried(*W.modes) if goes_on else 1 + stands_on
         supports = [(float(times[0]), SUPPORTS[first])]
         if not goes_on:
-            noted(W, self.log, PAINLEVE, OPEN, OPEN)
+            logged(W, self.log, PAINLEVE, OPEN, OPEN)
         elif first == 0:
-            noted(W, self.log, LIFTS_OFF, OPEN, OPEN)
+            logged(W, self.log, LIFTS_OFF, OPEN, OPEN)
         if goes_on and (first or self.flies):
             self._follow()
         count = int(W.samples)
         if not count:
-            self._alone(stands_on, int(self.log[0, 1]))
+            self._alone(stands_on)
             count = 1
         rows = self.rows[:count]
         finite = [np.isfinite(rows[name]).reshape(count, -1).all(axis=1) for name in SAMPLE.names]
@@ -177,15 +193,14 @@ class _Run:
             raise TopError("friction", self.friction, "weaker friction for this top",
                            "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",
                            t=float(times[max(int(followed.argmin()) - 1, 0)]), unit="")  # fmt: skip
-        log = self.log[: W.events]
-        events = tuple((float(t), NAMES[int(name)]) for t, name, _ in log)
+        log = [(float(entry.t), entry.name, SUPPORTS[entry.supports]) for entry in self.log[: W.logged]]
+        events = tuple((t, EVENTS[name][0]) for t, name, _ in log if EVENTS[name][1] != NOTES)
         for t, name, what in log:
-            if name != PAINLEVE:
-                _support(supports, float(t), SUPPORTS[int(what)])
+            if name != PAINLEVE and EVENTS[name][1] != NOTES:
+                _support(supports, t, what)
         parts = {name: rows[name].copy() for name in SAMPLE.names} | {"regime": REGIMES[rows["regime"]]}
-        return Trajectory(
-            top=self.top, events=events, supports=tuple(supports), time_90=float(W.tally.time_90), **parts
-        )
+        time_90 = next((t for t, name, _ in log if name == PASSES_90), np.nan)
+        return Trajectory(top=self.top, events=events, supports=tuple(supports), time_90=time_90, **parts)
 
     def _follow(self) -> None:
         W, P, times = self.motion, self.P, self.times
@@ -202,7 +217,7 @@ class _Run:
                 return
             self._tell()
             if W.steps >= MOST_STEPS:
-                noted(W, self.log, TOO_MANY_TURNS, *W.modes)
+                logged(W, self.log, TOO_MANY_TURNS, *W.modes)
                 return
 
     def _tell(self) -> None:
@@ -238,19 +253,16 @@ class _Run:
             theta = rolling.theta(t)
             return TOUCH - floor + gap(P, np.cos(theta), np.sin(theta))
 
-        found = [(first_below(margin, rolling.period), SLIPS)]
+        found: list[tuple[float, Event]] = [(first_below(margin, rolling.period), (SLIPS, BALL))]
         if P.stem:
-            found.append((first_below(room_left, rolling.period), TOUCHES + STEM))
+            found.append((first_below(room_left, rolling.period), (TOUCHES, STEM)))
         if P.rim > -2:
-            found.append((first_below(lambda t: np.cos(rolling.theta(t)) - P.rim, rolling.period), RIM))
+            found.append((first_below(lambda t: np.cos(rolling.theta(t)) - P.rim, rolling.period), (RIM, BALL)))
         ends, event = min(found)
         done = int(W.samples)
         last = y[TIME] + ends
-        if np.isnan(W.tally.time_90):
-            side = np.sign(np.cos(state.theta))
-            passes = first_below(lambda t: side * np.cos(rolling.theta(t)), rolling.period)
-            if y[TIME] + passes <= min(last, times[-1]):
-                W.tally.time_90 = y[TIME] + passes
+        for t, name in _noted(rolling, min(last, times[-1]) - y[TIME]):
+            noted(W, self.log, name, y[TIME] + t)
         count = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, last)), done)
         moved = rolling(np.array([y[TIME], *times[done:count]]))
         for name in SAMPLE.names:
@@ -268,16 +280,31 @@ class _Run:
         on_table(W, P, BALL)
         return bool(happens(W, P, self.log, event, self.flies))
 
-    def _alone(self, stands_on: int, event: int) -> None:
+    def _alone(self, stands_on: int) -> None:
         """The row of a single instant, for an event that ends the motion at once."""
         W, P = self.motion, self.P
-        modes = [OPEN, OPEN]
+        event, modes = next(entry.name for entry in self.log if EVENTS[entry.name][1] != NOTES), [OPEN, OPEN]
         if event != LIFTS_OFF:
             modes[stands_on] = SLIP
         W.contacts.F[:] = 0.0
         W.contacts.F[stands_on, 2] = float(event == STANDS_UPRIGHT)
         sample_at(W, P, modes[0], modes[1], self.rows[0])
         self.rows[0].slip = 0.0
+
+
+def _noted(rolling: Rolling, ends: float) -> list[tuple[float, int]]:
+    """The times, up to `ends`, and the names of what is noted while it rolls."""
+
+    def value(t: Array, n: int) -> Array:
+        moved = rolling(np.append(0.0, t))
+        up, up_rate = np.cos(moved.theta), -np.sin(moved.theta) * moved.omega[:, 0]
+        return cast(Array, noted_values(up[1:], up_rate[1:])[n])
+
+    found, each = [], rolling.period
+    for n, name in enumerate(NOTED):
+        for first in zeros(partial(value, n=n), min(each, ends)):
+            found += [(float(t), int(name)) for t in np.arange(first, ends, each)[:MOST_EVENTS]]
+    return sorted(found)
 
 
 def _support(supports: list[tuple[float, str]], t: float, what: str) -> None:

@@ -211,6 +211,13 @@ def turning_cosines(
     return (max(min(other, one), here), here) if slope > 0 else (here, min(max(other, -one), here))
 
 
+def zeros(function: Callable[[Array], Array], end: float) -> list[float]:
+    """The times from 0 to end at which function(t (n,)) -> (n,) changes its sign, if not twice in end/512."""
+    t = np.linspace(0, end, 513)
+    changes = np.flatnonzero(np.diff(function(t) > 0))
+    return [zero(lambda x: function(np.array([x]))[0], t[i], t[i + 1], ()) for i in changes]
+
+
 def first_below(function: Callable[[Array], Array], period: float) -> float:
     """The first t >= 0 at which function(t (n,)) -> (n,), with the given period, falls below 0; inf if it never
     does."""

@@ -81,20 +81,27 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
 
 
 @compiled
+def stage_rates(W: Record, P: Record, slowest: int, s: int) -> float:
+    """Writes the rates at step.at into step.K[s]; where beta is kept steady, those at its steady value."""
+    S = W.step
+    if W.steady:
+        S.at[BETA] = steady_direction(W, P, slowest)[0]
+    minor = rates(S.at, slowest, W.modes[BALL], W.modes[STEM], P, W.contacts, S.K[s])
+    if W.steady:
+        S.K[s, BETA] = 0.0
+    return minor
+
+
+@compiled
 def densely(W: Record, P: Record, slowest: int, h: float) -> None:
     """Computes the polynomial (dense output) of the step from step.z to step.new, whose stages are in step.K.
     That of an implicit step is there already."""
     if W.implicit:
         return
-    S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
-    K, F = S.K, S.polynomial
+    S, K, F = W.step, W.step.K, W.step.polynomial
     for s in range(3):
         stage(S.z, K, A_DENSE[s], STAGES + 1 + s, h, S.at)
-        if W.steady:  # as in the earlier stages: otherwise beta diverges, and log|u| with it
-            S.at[BETA] = steady_direction(W, P, slowest)[0]
-        rates(S.at, slowest, ball, stem, P, C, K[STAGES + 1 + s])
-        if W.steady:
-            K[STAGES + 1 + s, BETA] = 0.0
+        stage_rates(W, P, slowest, STAGES + 1 + s)
     for i in range(16):
         moved = S.new[i] - S.z[i]
         F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])

@@ -1,4 +1,4 @@
-"""Rolling for good. Once Coulomb friction makes the ball roll and a whole nutation has passed without an event, every
+"""Periodic rolling. Once Coulomb friction makes the ball roll and a whole nutation has passed without an event, every
 later nutation is the same one, rotated by the same angle about the vertical and displaced: whole nutations are
 skipped."""
 
@@ -7,13 +7,14 @@ import numpy as np
 from ..compiled import compiled
 from ..paper.search import zero
 from ..types import Array
+from .contacts import Event
 from .dynamics import NO_ONE
-from .following import ENDED, MORE, OVER, ROLLS, follow
-from .happening import happens, run
+from .events import happens
 from .poses import tilt, turned
 from .records import CHI, LX, PW, PX, PY, PZ, SAMPLE, TIME, VX, Record, X, Y
+from .run import ENDED, MORE, OVER, ROLLS, follow, run
 from .stepper import at_share, densely
-from .tally import up_rate, up_rate_at
+from .summary import up_rate, up_rate_at
 
 
 @compiled
@@ -22,22 +23,24 @@ def run_all(W: Record, P: Record, log: Array, end: float, flies: bool, steps: in
     limit, none, rows = W.steps + steps, np.zeros(0), np.zeros(0, SAMPLE)
     exact = P.delta == 0.0 and P.drag == 0.0
     while True:
-        event = run(W, P, log, none, rows, end, flies, exact, limit - W.steps)
-        if event == ROLLS:
-            event = nutate(W, P, none, rows, end, limit)
-            if event not in (OVER, MORE) and not happens(W, P, log, event, flies):
-                continue
-        return event if event in (OVER, MORE) else ENDED
+        status = run(W, P, log, none, rows, end, flies, exact, limit - W.steps)
+        if status != ROLLS:
+            return status
+        event = nutate(W, P, log, none, rows, end, limit)
+        if event[0] == OVER or event[0] == MORE:
+            return event[0]
+        if happens(W, P, log, event, flies):
+            return ENDED
 
 
 @compiled
-def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: int) -> int:
+def nutate(W: Record, P: Record, log: Array, none: Array, rows: Array, end: float, limit: int) -> Event:
     """Rolls like follow(); from the second maximum of theta on by whole nutations."""
-    first, second, least, T, passed = np.zeros(6), np.zeros(6), np.zeros(6), W.tally, 0
+    first, second, least, T, passed = np.zeros(6), np.zeros(6), np.zeros(6), W.summary, 0
     while passed < 2:
         before = up_rate(W.y, P)
-        event = follow(W, P, none, rows, end, min(limit, W.steps + 1))
-        if event != MORE or W.steps >= limit:
+        event = follow(W, P, log, none, rows, end, min(limit, W.steps + 1))
+        if event[0] != MORE or W.steps >= limit:
             return event
         if before < 0.0 <= up_rate(W.y, P):
             turns(W, P, second)
@@ -51,7 +54,7 @@ def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: in
     if skip(W.y, W.angles, first, second, end if whole else T.since) and whole:
         T.least, T.most, T.seen = min(T.least, least[5]), max(T.most, second[5]), T.seen | 2
     W.rated = 0
-    return follow(W, P, none, rows, end, limit)
+    return follow(W, P, log, none, rows, end, limit)
 
 
 @compiled

@@ -1,12 +1,26 @@
-"""Integrates a motion to its next event: steps of stepper.py with the equations of dynamics.py, with a watch on the
-guards."""
+"""Integrates a motion, from event to event: steps of stepper.py with the equations of dynamics.py, with a watch on the
+guards and on what is noted."""
 
 import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .contacts import HALTS, LEAVES, LOG_STILL, NUDGE, SLIPS, first_negative, guards, known, margin, may_stick
-from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, forces, rates
+from .contacts import (
+    HALTS,
+    LEAVES,
+    LOG_STILL,
+    NONE,
+    NUDGE,
+    SLIPS,
+    Event,
+    first_negative,
+    guards,
+    known,
+    margin,
+    may_stick,
+)
+from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, arrange, forces, rates
+from .events import first_event, happens
 from .friction import CONTENSOU, COULOMB
 from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
 from .impulses import halted
@@ -23,15 +37,16 @@ from .stepper import (
     error,
     factor,
     stage,
+    stage_rates,
     steady_direction,
     when,
     within,
 )
-from .tally import tally, tally_tilt
-from .watching import first_event
+from .summary import summarize, watch_tilt
 
-# Why follow() returns: the times are over; more steps are needed; Coulomb friction makes the ball roll; it has ended.
-OVER, MORE, ROLLS, ENDED = -1, -2, -3, -4
+# Why else follow() or run() returns: the times are over; more steps are needed; Coulomb friction makes the ball roll;
+# it has ended.
+OVER, MORE, ROLLS, ENDED = range(NONE - 1, NONE - 5, -1)
 
 FIRST = 1e-3  # (R/g)^1/2: the first step; the following ones grow fast
 SMALLEST = 1e-13  # (R/g)^1/2: the smallest step
@@ -44,8 +59,25 @@ NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin at which a patch may come to rest
 
 
 @compiled
-def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: int) -> int:
-    """Integrates until the first event and returns its number, or OVER, or MORE. Samples at the times go into rows."""
+def run(
+    W: Record, P: Record, log: Array, times: Array, rows: Array, end: float, flies: bool, hands_over: bool, steps: int
+) -> int:
+    """Integrates across events: OVER, MORE after so many steps, ROLLS if hands_over, or ENDED. log lists the events."""
+    limit = W.steps + steps
+    while True:
+        if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and P.law.kind == COULOMB:
+            return ROLLS
+        event = follow(W, P, log, times, rows, end, limit)
+        if event[0] == OVER or event[0] == MORE:
+            return event[0]
+        if happens(W, P, log, event, flies):
+            return ENDED
+
+
+@compiled
+def follow(W: Record, P: Record, log: Array, times: Array, rows: Array, end: float, limit: int) -> Event:
+    """Integrates until the first event, which it returns, or (OVER or MORE, BALL). Samples at the times go into
+    rows."""
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
     if W.begins:
@@ -55,7 +87,7 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
         W.floor[0], W.floor[1] = min(C.height[0], 0.0), min(C.height[1], 0.0)
         guards(y, NO_ONE, ball, stem, W.floor, P, S, C, W.guards)
         event = first_negative(W.guards)
-        if event != NO_ONE:
+        if event[0] != NONE:
             return event
         k = W.samples
         while k < len(times) and times[k] <= y[TIME]:
@@ -63,17 +95,17 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
             k = W.samples
     while y[TIME] < end:
         if W.steps >= limit:
-            return MORE
+            return MORE, BALL
         W.steps += 1
-        event = advance(W, P, times, rows, end)
-        if event != NO_ONE:
+        event = advance(W, P, log, times, rows, end)
+        if event[0] != NONE:
             return event
-    return OVER
+    return OVER, BALL
 
 
 @compiled
-def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
-    """Takes one step, or the part of it before an event; returns the event or NO_ONE."""
+def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: float) -> Event:
+    """Takes one step, or the part of it before an event; returns the event or NONE."""
     y, S, C = W.y, W.step, W.contacts
     slowest = change_variables(W, P)
     if W.rated:  # the last stage of the previous step
@@ -83,7 +115,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     h, near = accept(W, P, slowest, end - y[TIME] if timed else np.inf)
     if timed:  # free of rounding errors of the integration
         S.new[TIME] = end if h == end - y[TIME] else y[TIME] + h
-    event, share, k, N = NO_ONE, 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
+    event, share, k, N = (NONE, BALL), 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
     dense = near < NEAR or S.new[TIME] > end or (k < len(times) and times[k] <= S.new[TIME])
     if dense:
         densely(W, P, slowest, h)
@@ -91,7 +123,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
         event, share = first_event(W, P, slowest)
     over = S.new[TIME] > end and (share == 1.0 or within(S, share, TIME) > end)
     if over:
-        event, share = NO_ONE, when(S, end)
+        event, share = (NONE, BALL), when(S, end)
     t = S.new[TIME] if share == 1.0 else (y[TIME] + share * h if timed else within(S, share, TIME))
     t = end if over else min(t, end)
     while k < len(times) and times[k] <= t:
@@ -100,12 +132,12 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
         sample(W, P, S.at, slowest, times[k], rows)
         k = W.samples
     at_end(S, share)
-    tally_tilt(W, P, slowest, h, share, dense)
+    watch_tilt(W, P, log, slowest, h, share, dense)
     before = moved(W, P, slowest, t)
-    if event == NO_ONE and share == 1.0:
+    if event[0] == NONE and share == 1.0:
         event = comes_to_rest(W, P, slowest, before)
-    W.rated = event == NO_ONE and share == 1.0 and slowest == NO_ONE
-    tally(W, P, 0.0 if LEAVES <= event < LEAVES + 2 else N if share == 1.0 else np.inf)
+    W.rated = event[0] == NONE and share == 1.0 and slowest == NO_ONE
+    summarize(W, P, 0.0 if event[0] == LEAVES else N if share == 1.0 else np.inf)
     return event
 
 
@@ -191,11 +223,7 @@ def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]
             S.at[:] = S.z
         else:
             stage(S.z, S.K, A[s] if s < STAGES else B, s, h, S.at)
-        if W.steady:
-            S.at[BETA] = steady_direction(W, P, slowest)[0]
-        minor = rates(S.at, slowest, ball, stem, P, C, S.K[s])
-        if W.steady:
-            S.K[s, BETA] = 0.0
+        minor = stage_rates(W, P, slowest, s)
         near = min(near, margin(S.at, minor, ball, stem, P, C))
     S.new[:], W.rated = S.at, 1
     return error(S.K, S.scale, h), near
@@ -227,17 +255,17 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
 
 
 @compiled
-def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
-    """HALTS + i if friction stops the slowest contact i, SLIPS + i if its slip goes through 0, or NO_ONE."""
+def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
+    """(HALTS, i) if friction stops the slowest contact i, (SLIPS, i) if its slip goes through 0, or NONE."""
     y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
     if slowest != NO_ONE:
         speed = W.step.new[LOG_U]
         if speed < min(np.log(before), LOG_STILL):  # near the limit of friction it may still stick
             if may_stick(y, ball, stem, slowest, P, C):
                 halted(y, slowest, P, C)
-                return HALTS + slowest
+                return HALTS, slowest
             if speed < 2 * LOG_STILL:
-                return SLIPS + slowest
+                return SLIPS, slowest
     elif P.law.kind == CONTENSOU:
         _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
         for i in range(1 + P.stem):
@@ -250,8 +278,8 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, TIME]
                     halted(y, i, P, C)
-                    return (HALTS if holds else SLIPS) + i
-    return NO_ONE
+                    return (HALTS if holds else SLIPS), i
+    return NONE, BALL
 
 
 @compiled

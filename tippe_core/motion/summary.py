@@ -1,4 +1,4 @@
-"""The summary of a motion, accumulated step by step."""
+"""The summary of a motion, and what is noted in its log, step by step."""
 
 import numpy as np
 
@@ -6,12 +6,10 @@ from ..compiled import compiled, shared_with_kernels
 from ..paper.search import zero
 from ..types import Array
 from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
+from .events import NOTED, PASSES_90, noted, noted_values, touched
 from .poses import tilt
 from .records import LZ, PW, PX, PY, PZ, TIME, Record, Z
 from .stepper import at_end, at_share, densely, when, within
-
-LAST = 0.1  # the last fraction of the time, by which the end is judged
-UPRIGHT, LEANS = 0.2, 0.05  # rad: closer than this to a pole; the tilt changes by less than this
 
 
 @compiled
@@ -20,24 +18,24 @@ def energy(W: Record, P: Record) -> float:
 
 
 @compiled
-def begin_tally(W: Record, P: Record, since: float) -> None:
+def begin(W: Record, P: Record, log: Array, since: float) -> None:
     """Starts an empty summary; since: the time from which on the tilt and the supports count."""
-    T, (e, _, L3) = W.tally, turning(W.y, P)
-    T.since, T.C_J, T.drift, T.hops, T.seen, T.slips = since, W.y[LZ] - P.a * L3, 0.0, 0, 0, 0
-    T.time_90 = W.y[TIME] if e[2] == 0.0 else np.nan
-    T.time_stem = W.y[TIME] if W.modes[STEM] != OPEN else np.nan
-    T.F_z_least = T.least = np.inf
-    T.most = -np.inf
+    T, (e, _, L3) = W.summary, turning(W.y, P)
+    T.since, T.C_J, T.F_z_least, T.least, T.most = since, W.y[LZ] - P.a * L3, np.inf, np.inf, -np.inf
+    if e[2] == 0.0:
+        noted(W, log, PASSES_90, W.y[TIME])
+    if W.modes[STEM] != OPEN:
+        touched(W, log)
 
 
 @compiled
-def tally(W: Record, P: Record, N: float) -> None:
+def summarize(W: Record, P: Record, N: float) -> None:
     """Updates the summary at the end of a step, with the normal force N there."""
-    T, y, (_, _, L3) = W.tally, W.y, turning(W.y, P)
+    T, y, (_, _, L3) = W.summary, W.y, turning(W.y, P)
     ball, stem = W.modes[BALL], W.modes[STEM]
     if ball != OPEN or stem != OPEN:
         T.F_z_least = min(T.F_z_least, N)
-    if np.isnan(T.time_stem):
+    if not T.touched:
         T.drift = max(T.drift, abs(y[LZ] - P.a * L3 - T.C_J))
     if y[TIME] >= T.since:
         T.seen |= 1 << carried(ball, stem)
@@ -46,32 +44,35 @@ def tally(W: Record, P: Record, N: float) -> None:
 
 
 @compiled
-def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense: bool) -> None:
-    """Records when theta first passes 90 degrees, and once that counts the range of theta, within the step of length h
-    from step.z, up to the fraction share, from the polynomial of the step. dense: whether it is computed already."""
-    T, S = W.tally, W.step
+def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: float, dense: bool) -> None:
+    """Notes what is noted in the step of length h from step.z, up to the fraction share, from the polynomial of the
+    step, and once that counts the range of theta. dense: whether the polynomial is computed already."""
+    T, S = W.summary, W.step
     e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[TIME], S.at[TIME]
-    turns = rate * rate1 < 0.0
-    near = turns and e * rate < 0.0 and min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) * (ends - begins)
-    passes, counts = np.isnan(T.time_90) and (e * e1 <= 0.0 or near), ends >= T.since
+    first, last, turns, counts = noted_values(e, rate), noted_values(e1, rate1), rate * rate1 < 0.0, ends >= T.since
+    # whether e_z may pass through 0 twice
+    changes = turns and e * rate < 0.0 and min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) * (ends - begins)
+    for n in range(len(NOTED)):
+        changes = changes or (first[n] > 0.0) != (last[n] > 0.0)
     if counts:
         widen(T, S.at)
-    if not (passes or (counts and (turns or begins < T.since))):
+    if not (changes or (counts and (turns or begins < T.since))):
         return
     if not dense:
         densely(W, P, slowest, h)
     turn = zero(up_rate_at, 0.0, share, (S, P)) if turns else share
     at_share(S, turn, S.at)
-    there, when_there = up(S.at), within(S, turn, TIME)
-    if counts and when_there >= T.since:
+    if counts and within(S, turn, TIME) >= T.since:
         widen(T, S.at)
+    middle = noted_values(up(S.at), up_rate(S.at, P))
     if counts and begins < T.since:
         at_share(S, when(S, T.since), S.at)
         widen(T, S.at)
-    if passes and e * there <= 0.0:
-        T.time_90 = within(S, zero(up_at, 0.0, turn, (S,)), 12)
-    elif passes and e * e1 <= 0.0:
-        T.time_90 = within(S, zero(up_at, turn, share, (S,)), 12)
+    for n in range(len(NOTED)):
+        if (first[n] > 0.0) != (middle[n] > 0.0):
+            noted(W, log, NOTED[n], within(S, zero(noted_at, 0.0, turn, (S, P, n)), TIME))
+        if (middle[n] > 0.0) != (last[n] > 0.0):
+            noted(W, log, NOTED[n], within(S, zero(noted_at, turn, share, (S, P, n)), TIME))
     at_end(S, share)
 
 
@@ -96,10 +97,10 @@ def widen(T: Record, y: Array) -> None:
 
 
 @shared_with_kernels
-def up_at(x: float, S: Record) -> float:
-    """up() at the fraction x of the step."""
+def noted_at(x: float, S: Record, P: Record, n: int) -> float:
+    """Value n of noted_values() at the fraction x of the step."""
     at_share(S, x, S.at)
-    return up(S.at)
+    return noted_values(up(S.at), up_rate(S.at, P))[n]
 
 
 @shared_with_kernels
