@@ -9,84 +9,60 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import (
-    Constants,
-    Contensou,
-    Coulomb,
-    SmoothedCoulomb,
-    State,
-    Top,
-    TruncatedSphere,
-    Viscous,
-    allowed_shares,
-    f,
-    figures,
-    friction_force,
-    glide,
-    kept,
-    limit_energy,
-    normal_force,
-    omega2,
-    omega3,
-    outcome,
-    roll,
-    slide,
-    slide_many,
-    steady_precessions,
-    tielines,
-    turning_points,
-)
+import tippe_core as core
+
+from . import kept
 from .compiled import not_kept
 
-TOP = Top.paper()
-MOTION = Constants(K_J=7.0, K_R=10.0, E=27.0)
+TOP = core.Top.paper()
+MOTION = core.Constants(K_J=7.0, K_R=10.0, E=27.0)
 THETA = np.linspace(0.5, 2.5, 4)
 TIMES = np.linspace(0.0, 1.0, 4)
-START = State(theta=0.1, theta_dot=0.0, omega2=0.0, omega3=9.0)
+START = core.State(theta=0.1, theta_dot=0.0, omega2=0.0, omega3=9.0)
 K_J = np.linspace(0.0, 8.0, 4)
-LAWS = (Coulomb(0.3, 0.35), SmoothedCoulomb(0.3, 0.1), Viscous(0.3), Contensou(0.3, 0.01))
+LAWS = (core.Coulomb(0.3, 0.35), core.SmoothedCoulomb(0.3, 0.1), core.Viscous(0.3), core.Contensou(0.3, 0.01))
 
 
 def curve() -> None:
     """On floats, and on arrays of one and of two dimensions."""
-    surface = Constants(K_J[:, None], MOTION.K_R, MOTION.E)
+    surface = core.Constants(K_J[:, None], MOTION.K_R, MOTION.E)
     for theta, constants in ((1.0, MOTION), (THETA, MOTION), (THETA, surface)):
-        for function in (f, omega2, omega3, normal_force, friction_force):
+        for function in (core.f, core.omega2, core.omega3, core.normal_force, core.friction_force):
             function(theta, TOP, constants)
-    turning_points(TOP, MOTION)
-    steady_precessions(TOP, float(MOTION.K_J), float(MOTION.K_R))
+    core.turning_points(TOP, MOTION)
+    core.steady_precessions(TOP, float(MOTION.K_J), float(MOTION.K_R))
 
 
 def lines() -> None:
-    limit_energy(TOP, 7.0, 10.0, 0.5)
-    tielines(TOP, K_J, 10.0)
-    figures(TOP, K_J, 10.0, 0.5)
+    core.limit_energy(TOP, 7.0, 10.0, 0.5)
+    core.tielines(TOP, K_J, 10.0)
+    core.figures(TOP, K_J, 10.0, 0.5)
 
 
 def shares() -> None:
-    allowed_shares(np.array([0.05, -0.5]), 0.4, 0.4, 10.0, 0.5)
+    core.allowed_shares(np.array([0.05, -0.5]), 0.4, 0.4, 10.0, 0.5)
 
 
 def rolling() -> None:
-    roll(TOP, MOTION, TIMES)
-    roll(TOP, None, TIMES, START)
+    core.roll(TOP, MOTION, TIMES)
+    core.roll(TOP, None, TIMES, START)
 
 
 def smooth() -> None:
-    glide(TOP, START, TIMES)
-    outcome(TOP, START)
+    core.glide(TOP, START, TIMES)
+    core.outcome(TOP, START)
 
 
 def sliding() -> None:
     """With each friction law, as a whole sphere and with the edge of the stem, with a landing, and standing on the
     stem."""
-    top, edge = TruncatedSphere.paper().top, TruncatedSphere.paper().edge
-    on_the_stem = State(theta=3.0, theta_dot=0.0, omega2=0.0, omega3=-9.0)
+    top, edge = core.TruncatedSphere.paper().top, core.TruncatedSphere.paper().edge
+    on_the_stem = core.State(theta=3.0, theta_dot=0.0, omega2=0.0, omega3=-9.0)
     for law in LAWS:
-        slide(top, START, law, TIMES)
-        slide(top, START, law, TIMES, edge=edge)
-        slide(top, on_the_stem, law, TIMES, edge=edge)
-    slide_many(top, START, LAWS[0], 1.0, edge, nudge=1e-6)
+        core.slide(top, START, law, TIMES)
+        core.slide(top, START, law, TIMES, edge=edge)
+        core.slide(top, on_the_stem, law, TIMES, edge=edge)
+    core.slide_many(top, START, LAWS[0], 1.0, edge, nudge=1e-6)
 
 
 # In the order in which visitors of the page first need them.

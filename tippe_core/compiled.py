@@ -76,7 +76,7 @@ def why_not() -> str:
 def not_kept() -> str:
     """Why the next process will have to compile this process's kernels again; empty if they are stored."""
     if kept.folder() is None:
-        return "no folder can be written to: " + ", ".join(map(str, kept.places()))
+        return f"no folder can be written to, neither {kept.PACKAGE / '__pycache__'} nor numba's cache"
     return next(iter(_unwritten.values()), "")
 
 
@@ -106,11 +106,9 @@ def _dispatcher(function: Callable[..., Any]) -> Numba:
     while _shared:
         importlib.import_module("numba.extending").register_jitable(error_model="numpy")(_shared.pop())
     dispatcher = _numba().njit(nogil=True, error_model="numpy")(function)
-    if kept.folder() is not None and Path(function.__code__.co_filename).is_file():
-        # Private parts of numba. If another version lacks them, each process compiles the kernels anew.
-        with suppress(ImportError, AttributeError):
+    with suppress(ImportError, AttributeError):  # private parts; without them each process compiles the kernels anew
+        if kept.folder() is not None and Path(function.__code__.co_filename).is_file():
             dispatcher._cache = _cache()(function)
-    with suppress(ImportError, AttributeError):
         _once(dispatcher)
     return dispatcher
 
@@ -130,15 +128,24 @@ def _once(dispatcher: Numba) -> None:
 
 @functools.cache
 def _cache() -> Numba:
-    """numba's cache, in the folder of kept.py.
+    """numba's cache, in the folder of kept.py: its own makes a call fail that needs a file which cannot be read or
+    written."""
+    from numba.core.caching import CompileResultCacheImpl, FunctionCache, InTreeCacheLocator
 
-    The standard cache needs to write wherever it reads, so on a read-only system it raises at import; and a file that
-    it cannot read or write makes the call fail that happened to need it.
-    """
-    from numba.core.caching import CompileResultCacheImpl, FunctionCache
+    class Locator(InTreeCacheLocator):  # type: ignore[misc]
+        def get_cache_path(self) -> str:
+            return str(kept.folder())
+
+        def ensure_cache_path(self) -> None:
+            """Nothing to do: folder() has created it."""
+
+        def get_disambiguator(self) -> str:
+            """Tells apart functions of the same name in files of the same name."""
+            path = os.path.relpath(self._py_file, kept.PACKAGE)
+            return f"{hashlib.sha256(path.encode()).hexdigest()[:8]}-{self._lineno}"
 
     class Implementation(CompileResultCacheImpl):  # type: ignore[misc]
-        _locator_classes = (_Locator,)
+        _locator_classes = (Locator,)
 
     class Cache(FunctionCache):  # type: ignore[misc]
         _impl_class = Implementation
@@ -150,11 +157,9 @@ def _cache() -> Numba:
                 with suppress(OSError):
                     self.flush()
                 return None
-            if found is None:
-                return None
             # Two processes that write at the same time, without locks, may give the code of two signatures one name.
             asked: Numba = getattr(signature, "args", signature)
-            return found if tuple(found.signature.args) == tuple(asked) else None
+            return found if found is not None and tuple(found.signature.args) == tuple(asked) else None
 
         def save_overload(self, signature: Numba, result: Numba) -> None:
             kernel = f"{self._py_func.__module__}.{self._py_func.__qualname__}{signature}"
@@ -167,29 +172,3 @@ def _cache() -> Numba:
                 _unwritten[kernel] = str(error)
 
     return Cache
-
-
-class _Locator:
-    """Tells numba where a function's files are, and whether they match its present source."""
-
-    def __init__(self, path: str, line: int) -> None:
-        self._py_file, self._line = path, line
-
-    @classmethod
-    def from_function(cls, function: Callable[..., Any], path: str) -> "_Locator":
-        return cls(path, function.__code__.co_firstlineno)
-
-    def get_cache_path(self) -> str:
-        return str(kept.folder())
-
-    def ensure_cache_path(self) -> None:
-        """Nothing to do: folder() has created it."""
-
-    def get_source_stamp(self) -> bytes:
-        """For tippe_core the folder's name is stamp enough; for a kernel elsewhere, its file's."""
-        return hashlib.sha256(Path(self._py_file).read_bytes()).digest()
-
-    def get_disambiguator(self) -> str:
-        """Tells apart functions of the same name in files of the same name."""
-        path = os.path.relpath(self._py_file, kept.PACKAGE)
-        return f"{hashlib.sha256(path.encode()).hexdigest()[:8]}-{self._line}"

@@ -10,7 +10,6 @@ import hashlib
 import os
 import shutil
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -35,54 +34,45 @@ def name() -> str:
     import numpy as np
     from numba.core.registry import cpu_target
 
-    target = (
-        cpu_target.target_context.codegen().magic_tuple()
-    )  # system, processor's name and features, as set or detected
+    target = cpu_target.target_context.codegen().magic_tuple()  # the processor and its features, as set or detected
     known = hashlib.sha256(repr((sys.version, numba.__version__, np.__version__, target)).encode())
     for path in sorted(PACKAGE.rglob("*.py")):
         known.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return f"kernels-{sys.implementation.cache_tag}-{target[1]}-{known.hexdigest()[:16]}"
 
 
-def places() -> Iterator[Path]:
-    """Candidate folders: numba's cache directory if one is set, else next to the sources, then the user's cache."""
-    if told := os.environ.get("NUMBA_CACHE_DIR"):
-        yield Path(told)
-        return
-    yield PACKAGE / "__pycache__"
-    with suppress(RuntimeError):  # a user without a home directory
-        yield _users_cache() / "tippe-top-explorer"
-
-
-def _users_cache() -> Path:
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches"
-    told = os.environ.get("XDG_CACHE_HOME", "")
-    return Path(told) if os.path.isabs(told) else Path.home() / ".cache"
-
-
 @cache
 def folder() -> Path | None:
-    """The first candidate that is complete, writable or not; else the first writable one; None if there is none."""
-    if not Path(__file__).is_file():  # inside an archive, where files cannot be listed
-        return None
-    candidates = [place / name() for place in places()]
-    found = next(filter(complete, candidates), None) or next(filter(writable, candidates), None)
-    if found:
-        used(found)
-    return found
+    """The folder, in the first place in which numba would store that is complete or can be written to: its cache
+    directory if one is set, next to the sources, the user's cache. None if there is none, or inside an archive."""
+    from numba.core.caching import InTreeCacheLocator, UserProvidedCacheLocator, UserWideCacheLocator
+
+    class Here:
+        def get_cache_path(self) -> str:
+            return os.path.join(super().get_cache_path(), name())  # type: ignore[misc]
+
+        def ensure_cache_path(self) -> None:
+            if not complete(Path(self.get_cache_path())):
+                super().ensure_cache_path()  # type: ignore[misc]
+
+        @classmethod
+        def get_suitable_cache_subpath(cls, path: str) -> str:
+            return "tippe-top-explorer"
+
+    for place in (UserProvidedCacheLocator, InTreeCacheLocator, UserWideCacheLocator):
+        if found := type(place.__name__, (Here, place), {}).from_function(complete, __file__):  # type: ignore[attr-defined]
+            path = Path(found.get_cache_path())
+            used(path)
+            return path
+    return None
 
 
 def complete(path: Path | None) -> bool:
     """Whether all that compiling ahead of time produces is there; more may have been added since."""
-    if path is None:
-        return False
     try:
-        listed = [line.split(" ", 1) for line in (path / COMPLETE).read_text(encoding="utf-8").splitlines()]
-        return all((path / file).stat().st_size >= int(size) for size, file in listed)
-    except (OSError, ValueError):
+        listed = [line.split(" ", 1) for line in (path / COMPLETE).read_text(encoding="utf-8").splitlines()]  # type: ignore[operator]
+        return all((path / file).stat().st_size >= int(size) for size, file in listed)  # type: ignore[operator]
+    except (OSError, ValueError, TypeError):
         return False
 
 
@@ -107,16 +97,6 @@ def remove_unused(own: Path) -> None:
         with suppress(OSError):
             if time.time() - each.stat().st_mtime > UNUSED * 86400:
                 shutil.rmtree(each)
-
-
-def writable(path: Path) -> bool:
-    """Whether files can be created in it; it is made if it is missing."""
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=path).close()
-    except OSError:
-        return False
-    return True
 
 
 @contextmanager
