@@ -27,7 +27,7 @@ from .dynamics import (
     slip_rate,
     turning,
 )
-from .friction import CONTENSOU, bounds
+from .friction import bounds
 from .impact import held, impact
 from .impulses import mobility, moving, pushed, rests
 from .records import BETA, HEAT, LOG_U, PW, PX, PY, PZ, VX, VY, VZ, Record, Z
@@ -56,7 +56,7 @@ def spare(i: int, P: Record, C: Record, alone: bool) -> float:
     """How far static friction at contact i is below its limit: mu_s N - F_h, and the same for its torque."""
     most, twists = bounds(P.law)
     holds = most * C.F[i, 2] - np.sqrt(C.F[i, 0] ** 2 + C.F[i, 1] ** 2)
-    if P.law.kind == CONTENSOU and alone:
+    if P.law.patch and alone:
         holds = min(holds, twists * C.F[i, 2] - abs(C.M[i, 2]))
     return holds
 
@@ -138,7 +138,7 @@ def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> N
     """y with a minimal slip at a contact that starts to slip, in the direction in which the slip grows."""
     for i in range(1 + P.stem):
         if (ball if i == BALL else stem) == SLIP and rests(y, i, P, C):
-            if P.law.kind == CONTENSOU:
+            if P.law.patch:
                 let_patch_go(y, ball, stem, i, P, C)
             else:
                 beta, u = direction(y, ball, stem, i, P, S, C), moving(y, i, P, C)

@@ -37,7 +37,7 @@ import numpy as np
 from ..compiled import compiled
 from ..types import Array, Vector
 from .elimination import solve
-from .friction import CONTENSOU, COULOMB, bounds, push
+from .friction import bounds, push
 from .records import BETA, CHI, HEAT, LOG_U, LX, LY, LZ, PW, PX, PY, PZ, TIME, VX, VY, VZ, Record, X, Y, Z
 
 OPEN, SLIP, STICK = range(3)  # modes of a contact
@@ -165,7 +165,7 @@ def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
             n = column(C, n, i, 2, (0.0, 0.0, 1.0), (rolls[0], rolls[1], 0.0))
             n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
             n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
-            if P.law.kind == CONTENSOU and (ball == OPEN or stem == OPEN):
+            if P.law.patch and (ball == OPEN or stem == OPEN):
                 n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     return n
 
@@ -285,7 +285,7 @@ def clock(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
     """dt/dtau: the product of |u|/(|u| + SLOW) over the contacts that may come to stick. For a patch that also spins,
     |u|^2 is replaced by |u|^2 + (radius w_z)^2."""
     g = 1.0
-    if P.law.kind == COULOMB or P.law.kind == CONTENSOU:
+    if P.law.mu_s > 0.0:
         spin = P.law.width * w_z
         for i in range(1 + P.stem):
             if (ball if i == BALL else stem) == SLIP:

@@ -23,13 +23,18 @@ STEEP = 1e8  # k above which linear equations leave the slip out: its share is 1
 
 
 class Law(NamedTuple):
-    """A law in the form that kernels use. mu_s: coefficient of static friction, 0 if there is none. width: eps, or the
-    radius."""
+    """A law in the form that kernels use.
+
+    kind tells push() its formula. mu_s: the coefficient of static friction, 0 if there is none: otherwise the law is
+    set-valued at rest, and a slip may stop. width: eps, or the radius. patch: whether the contact is a patch, which
+    has a torque and stops only if it does not spin either.
+    """
 
     kind: int
     mu: float
     mu_s: float
     width: float
+    patch: bool = False
 
 
 @dataclass(frozen=True)
@@ -140,7 +145,7 @@ class Contensou(_Friction):
 
     @property
     def law(self) -> Law:
-        return Law(CONTENSOU, self.mu, self.mu, self.radius)
+        return Law(CONTENSOU if self.radius else COULOMB, self.mu, self.mu, self.radius, self.radius > 0)
 
 
 Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb | Contensou
@@ -167,7 +172,13 @@ def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
 def bounds(law: Law) -> tuple[float, float]:
     """The largest |F_h| and |T| per unit of F_z at a contact that neither slips nor spins: mu_s and, for Contensou's
     law, (3 pi/16) mu radius."""
-    return law.mu_s, (3 * np.pi / 16 * law.mu * law.width if law.kind == CONTENSOU else 0.0)
+    return law.mu_s, (3 * np.pi / 16 * law.mu * law.width if law.patch else 0.0)
+
+
+@compiled
+def is_point(law: Law) -> bool:
+    """Whether a slip may stop at a point, as with Coulomb's law: its direction is undefined there."""
+    return law.mu_s > 0.0 and not law.patch
 
 
 def sticks(law: Law, omega_n: float) -> bool:

@@ -17,7 +17,7 @@ from ..paper.search import zero
 from ..types import Array
 from .dynamics import SLOW
 from .elimination import solve
-from .friction import CONTENSOU, COULOMB, bounds, push
+from .friction import bounds, push
 from .records import Record
 from .stepper import ORDER, STAGES, A, B, error, factor, stage
 
@@ -74,9 +74,9 @@ def spread(q: Slip, law: Record) -> float:
 def held(W: Array, q: Slip, law: Record) -> Array:
     """The impulse that brings (u, w_z) = q to rest; w_z only if the law has a torque."""
     matrix, J = W.copy(), np.array([-q[0], -q[1], -q[2], -q[3]])
-    if law.kind != CONTENSOU:
+    if not law.patch:
         J[3] = 0.0
-    solve(matrix, J, 4 if law.kind == CONTENSOU else 3)
+    solve(matrix, J, 4 if law.patch else 3)
     return J
 
 
@@ -115,7 +115,7 @@ def grow(I: Record, law: Record, J: Array, out: Array) -> None:
     q = after(I, J)
     k, t = push(law, q[0] * q[0] + q[1] * q[1], q[3])
     g = 1.0
-    if law.kind == COULOMB or law.kind == CONTENSOU:
+    if law.mu_s > 0.0:
         speed = spread(q, law)
         g = speed / (speed + SLOW * I.scale)
     out[0], out[1], out[2], out[3] = -k * q[0] * g, -k * q[1] * g, g, -t * g

@@ -27,7 +27,7 @@ from .events import (
     TOO_MANY_EVENTS,
     logged,
 )
-from .friction import CONTENSOU, LAWS
+from .friction import LAWS
 from .periodic import run_all
 from .poses import sample_at
 from .preparing import (
@@ -267,7 +267,7 @@ def _followed(state: State, P: Record, t_end: float, how: _How) -> dict[str, Any
               else REASONS.get(last, "") if np.all(np.isfinite(W.y)) else "not-followed")  # fmt: skip
     on = "stem" if last == STANDS_UPRIGHT else {1 << carried: on for carried, on in enumerate(SUPPORTS)}.get(T.seen, "")
     drift = T.drift / (abs(T.C_J) or 1.0)
-    pivots = P.law.kind == CONTENSOU or P.drag > 0 or P.delta > 0
+    pivots = P.law.patch or P.drag > 0 or P.delta > 0
     return {"state": _state(W, P), "time_90": first.get(PASSES_90, np.nan),
             "time_stem": first.get(FIRST_TOUCH, np.nan), "hops": T.hops,
             "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[HEAT],

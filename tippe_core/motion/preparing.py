@@ -10,7 +10,7 @@ from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
 from .contacts import STARTS, settle
 from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, turning
-from .friction import CONTENSOU, COULOMB, Friction, Law
+from .friction import Friction
 from .records import MOTION, PROBLEM, VZ, Record, Z, new
 from .standing import leaned
 
@@ -89,15 +89,13 @@ def check_balance(top: Top, friction: Friction) -> None:
 
 def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float, float], rtol: float) -> Record:
     """The record PROBLEM. An edge that lies on the sphere itself is the end of its surface."""
-    (b, h, q), rim, law = edge or (0.0, 0.0, 0.0), -2.0, friction.law
+    (b, h, q), rim = edge or (0.0, 0.0, 0.0), -2.0
     if edge and np.hypot(b, h) + q < 1 + 1e-6:
         edge, rim = None, float(-h / np.hypot(b, h))
-    if law.kind == CONTENSOU and law.width == 0.0:
-        law = Law(COULOMB, law.mu, law.mu_s, 0.0)
     P = new(PROBLEM)
     P.a, P.I1, P.I3 = top.numbers
     P.k = 1 / P.I3 - 1 / P.I1
-    P.law, P.stem, P.b, P.h, P.q, P.rim = tuple(law), edge is not None, b, h, q, rim
+    P.law, P.stem, P.b, P.h, P.q, P.rim = tuple(friction.law), edge is not None, b, h, q, rim
     P.delta, P.drag, P.tolerance = *losses, SHARE * rtol
     return P
 

@@ -21,7 +21,7 @@ from .contacts import (
 )
 from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, arrange, forces, rates
 from .events import first_event, happens
-from .friction import CONTENSOU, COULOMB
+from .friction import is_point
 from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
 from .impulses import halted
 from .poses import record, turned
@@ -65,7 +65,7 @@ def run(
     """Integrates across events: OVER, MORE after so many steps, ROLLS if hands_over, or ENDED. log lists the events."""
     limit = W.steps + steps
     while True:
-        if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and P.law.kind == COULOMB:
+        if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and is_point(P.law):
             return ROLLS
         event = follow(W, P, log, times, rows, end, limit)
         if event[0] == OVER or event[0] == MORE:
@@ -111,7 +111,7 @@ def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: fl
     if W.rated:  # the last stage of the previous step
         S.K[0, :] = S.K[STAGES]
     scales(W, P, slowest)
-    timed = P.law.kind != CONTENSOU and slowest == NO_ONE
+    timed = not P.law.patch and slowest == NO_ONE
     h, near = accept(W, P, slowest, end - y[TIME] if timed else np.inf)
     if timed:  # free of rounding errors of the integration
         S.new[TIME] = end if h == end - y[TIME] else y[TIME] + h
@@ -153,7 +153,7 @@ def change_variables(W: Record, P: Record) -> int:
     """
     y, S, C, slowest, least = W.y, W.step, W.contacts, NO_ONE, np.inf
     S.z[:] = y
-    if P.law.kind == COULOMB:
+    if is_point(P.law):
         arrange(y, NO_ONE, W.modes[BALL], W.modes[STEM], P, C)
         for i in range(1 + P.stem):
             speed = np.exp(W.polar[0]) if i == W.slowest else np.hypot(C.u[i, 0], C.u[i, 1])
@@ -206,7 +206,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
         W.h = h * factors
     W.h = max(h * factors, W.h if h < W.h else 0.0, SMALLEST)
     W.implicit = W.stiff
-    W.stiff = P.law.kind == CONTENSOU and is_stiff(W, P, h)
+    W.stiff = P.law.patch and is_stiff(W, P, h)
     if W.stiff and not W.implicit:
         W.h *= S.K[STAGES, TIME]
     elif W.implicit and not W.stiff:
@@ -236,7 +236,7 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
     before = np.exp(S.z[LOG_U]) if slowest != NO_ONE else np.inf
-    if P.law.kind == CONTENSOU:
+    if P.law.patch:
         _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
         before = np.inf
         for i in range(1 + P.stem):
@@ -266,7 +266,7 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
                 return HALTS, slowest
             if speed < 2 * LOG_STILL:
                 return SLIPS, slowest
-    elif P.law.kind == CONTENSOU:
+    elif P.law.patch:
         _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
         for i in range(1 + P.stem):
             speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.width * w[2])
