@@ -34,7 +34,7 @@ def files(names):
 
 PAPER = ["equations", "poles", "constants", "curve", "forces", "wells", "limits"]
 ROLLING = ["differences", "nutation", "phase", "series", "crowding", "rolling"]
-SLIDING = ["friction", "dynamics", "stepper", "run", "events", "contacts", "impact", "impulses", "standing",
+SLIDING = ["friction", "dynamics", "stepper", "run", "events", "contacts", "impact", "standing",
            "preparing", "poses", "periodic", "sliding", "many", "summary"]  # fmt: skip
 CORE = [*PAPER, *ROLLING, "smooth", *SLIDING]
 APP = [

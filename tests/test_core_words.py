@@ -14,10 +14,10 @@ from app.model.planes.run import THROWN
 from app.tabs.planes.words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
-from tippe_core.motion.contacts import HALTS, LEAVES, SLIPS, TOUCHES
-from tippe_core.motion.dynamics import OPEN, SLIP
 from tippe_core.motion.events import EVENTS, change
-from tippe_core.motion.sinking import ANOTHER_TOUCHES
+from tippe_core.motion.kinds import HALTS, LEAVES, SLIPS, TOUCHES
+from tippe_core.motion.records import OPEN, SLIP
+from tippe_core.motion.trajectory import ANOTHER_TOUCHES
 
 
 def quoted(function, start, end):

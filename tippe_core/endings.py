@@ -8,8 +8,7 @@ import numpy as np
 from .classify import LAST, LEANS, judged
 from .errors import TopError
 from .motion.events import ENDS, EVENTS
-from .motion.sinking import ANOTHER_TOUCHES
-from .motion.trajectory import Trajectory
+from .motion.trajectory import ANOTHER_TOUCHES, Trajectory
 from .outcomes import steady_states
 from .types import Bools
 

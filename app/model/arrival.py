@@ -18,7 +18,7 @@ TABLE, TOY, SPIN, TILT, MU = ARRIVAL = "ordinary", "Leine and Glocker's toy", 28
 """The table, the toy, its spin (rev/s: 180 rad/s), its tilt (degrees: 0.1 rad) and the friction. That it ends up
 standing does not depend on the last digits of these."""
 HAPPENS = "events", "supports"
-NO_ROWS = "top", "time_90", *HAPPENS
+NO_ROWS = "top", "notes", *HAPPENS
 
 
 def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:

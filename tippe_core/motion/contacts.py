@@ -6,37 +6,18 @@ du_z'/dN must be positive. If friction is too strong for that, no N balances it,
 not say what follows. If nothing presses the contact down (u_z' > 0 without contact forces), it opens instead.
 """
 
-from typing import TypeAlias
-
 import numpy as np
 
 from ..compiled import compiled, shared_with_kernels
 from ..paper.search import zero
-from ..types import Array, Bools, Indices
-from .dynamics import (
-    BALL,
-    NO_ONE,
-    OPEN,
-    SLIP,
-    STEM,
-    STICK,
-    arrange,
-    forces,
-    kinetic,
-    rates,
-    slip_rate,
-    turning,
-)
+from ..types import Array, Bools, Indices, Number
+from . import at
+from .dynamics import arrange, forces, kinetic, rates, slip_rate, turning
 from .friction import bounds
-from .impact import held, impact
-from .impulses import mobility, moving, pushed, rests
-from .records import BETA, HEAT, LOG_U, PW, PX, PY, PZ, VX, VY, VZ, Record, Z
+from .impact import held, impact, mobility, moving, pushed, rests
+from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event
+from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
-
-# An event is (kind, contact). Its kinds: a guard falls below 0, a contact comes to rest, the start.
-BALANCES, LEAVES, SLIPS, TOUCHES, STANDS_UP, ROCKS, RIM, HALTS, STARTS = range(9)
-NONE = -1
-Event: TypeAlias = tuple[int, int]
 
 # STILL: slip below which the rest of the motion to a halt takes far less time than 1e-9, to which events are located.
 # SLACK (Mg), TOUCH (R): smaller values count as 0. LEAST: the smallest du_z'/dN allowed, relative to that without
@@ -56,7 +37,7 @@ def spare(i: int, P: Record, C: Record, alone: bool) -> float:
     """How far static friction at contact i is below its limit: mu_s N - F_h, and the same for its torque."""
     most, twists = bounds(P.law)
     holds = most * C.F[i, 2] - np.sqrt(C.F[i, 0] ** 2 + C.F[i, 1] ** 2)
-    if P.law.patch and alone:
+    if P.law.radius > 0.0 and alone:
         holds = min(holds, twists * C.F[i, 2] - abs(C.M[i, 2]))
     return holds
 
@@ -73,10 +54,19 @@ def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -
             least = min(least, C.F[i, 2])
             if mode == STICK:
                 least = min(least, spare(i, P, C, ball == OPEN or stem == OPEN))
-    up = 1 - 2 * (y[PX] * y[PX] + y[PY] * y[PY])
+    down = y[at.PX] * y[at.PX] + y[at.PY] * y[at.PY]
+    up = 1 - 2 * down
     if stem != OPEN and P.b > 0.0 and up < 0:
-        least = min(least, 2 * np.sqrt((y[PX] * y[PX] + y[PY] * y[PY]) * (y[PZ] * y[PZ] + y[PW] * y[PW])))
-    return min(least, up - P.rim)
+        least = min(least, 2 * np.sqrt(down * (y[at.PZ] * y[at.PZ] + y[at.PW] * y[at.PW])))
+    for value in tilt_guards(up, P):
+        least = min(least, value)
+    return least
+
+
+@shared_with_kernels
+def tilt_guards(up: Number, P: Record) -> tuple[Number, ...]:
+    """The guards that follow from e_z alone, of the kinds from RIM on; also of arrays."""
+    return (up - P.rim,)
 
 
 @compiled
@@ -96,7 +86,9 @@ def guards(
             out[LEAVES, i] = C.F[i, 2] + SLACK
         if mode == STICK:
             out[SLIPS, i] = spare(i, P, C, ball == OPEN or stem == OPEN) + SLACK
-    out[RIM, BALL] = e[2] - P.rim
+    values = tilt_guards(e[2], P)
+    for n in range(len(values)):
+        out[RIM + n, BALL] = values[n]
     if stem != OPEN and P.b > 0.0 and e[2] < 0.0:
         edge = P.b, P.h, P.q
         s, rate = leaning(e, w)
@@ -109,7 +101,7 @@ def guards(
 @compiled
 def known(y: Array, C: Record) -> None:
     """Copies v and z into y, after arrange()."""
-    y[VX], y[VY], y[VZ], y[Z] = C.G[0], C.G[1], C.G[2], C.G[3]
+    y[at.VX], y[at.VY], y[at.VZ], y[at.Z] = C.G[0], C.G[1], C.G[2], C.G[3]
 
 
 @compiled
@@ -138,12 +130,12 @@ def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> N
     """y with a minimal slip at a contact that starts to slip, in the direction in which the slip grows."""
     for i in range(1 + P.stem):
         if (ball if i == BALL else stem) == SLIP and rests(y, i, P, C):
-            if P.law.patch:
+            if P.law.radius > 0.0:
                 let_patch_go(y, ball, stem, i, P, C)
             else:
                 beta, u = direction(y, ball, stem, i, P, S, C), moving(y, i, P, C)
-                y[VX] += STILL * np.cos(beta) - u[0]
-                y[VY] += STILL * np.sin(beta) - u[1]
+                y[at.VX] += STILL * np.cos(beta) - u[0]
+                y[at.VY] += STILL * np.sin(beta) - u[1]
 
 
 @compiled
@@ -156,8 +148,8 @@ def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: R
         if n > 0 and last * now <= 0.0:
             steady = zero(across, beta - 2 * np.pi / DIRECTIONS, beta, given)
             across(steady, *given)
-            if S.K[0, LOG_U] > best:
-                best, found = S.K[0, LOG_U], steady
+            if S.K[0, at.LOG_U] > best:
+                best, found = S.K[0, at.LOG_U], steady
         last = now
     return found
 
@@ -167,9 +159,9 @@ def across(beta: float, y: Array, ball: int, stem: int, i: int, P: Record, S: Re
     """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, LOG_U] is the
     parallel one."""
     S.at[:] = y
-    S.at[LOG_U], S.at[BETA] = LOG_STILL, beta
+    S.at[at.LOG_U], S.at[at.BETA] = LOG_STILL, beta
     rates(S.at, i, ball, stem, P, C, S.K[0])
-    return S.K[0, BETA]
+    return S.K[0, at.BETA]
 
 
 @compiled
@@ -181,7 +173,7 @@ def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -
     F, M, N = (C.F[i, 0], C.F[i, 1]), C.M[i, 2], abs(C.F[i, 2]) + SLACK
     q = moving(y, i, P, C)
     change = (q[0] + NUDGE * F[0] / (most * N), q[1] + NUDGE * F[1] / (most * N), q[2],
-              q[3] + NUDGE / P.law.width * M / (twists * N))  # fmt: skip
+              q[3] + NUDGE / P.law.radius * M / (twists * N))  # fmt: skip
     pushed(y, i, held(mobility(i, i, y, P, C), change, P.law), P, C)
 
 
@@ -304,8 +296,8 @@ def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
 def rocked(y: Array, P: Record, C: Record) -> None:
     """y leaning on the opposite point of the rim; the energy lost in this small rotation is counted as heat."""
     e, _, L3 = turning(y, P)
-    before = kinetic(y, L3, P) + y[Z]
+    before = kinetic(y, L3, P) + y[at.Z]
     y[:] = crossed(y, e)
     moving(y, STEM, P, C)
-    y[Z] -= C.height[STEM]
-    y[HEAT] += before - kinetic(y, turning(y, P)[2], P) - y[Z]
+    y[at.Z] -= C.height[STEM]
+    y[at.HEAT] += before - kinetic(y, turning(y, P)[2], P) - y[at.Z]

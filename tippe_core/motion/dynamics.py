@@ -36,13 +36,11 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array, Vector
+from . import at
 from .elimination import solve
 from .friction import bounds, push
-from .records import BETA, CHI, HEAT, LOG_U, LX, LY, LZ, PW, PX, PY, PZ, TIME, VX, VY, VZ, Record, X, Y, Z
+from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 
-OPEN, SLIP, STICK = range(3)  # modes of a contact
-BALL, STEM = range(2)  # the contacts
-NO_ONE = -1  # the slowest contact if none slips by Coulomb's law
 SLOW = 0.01  # ((gR)^1/2)
 STEADY = 10.0  # ((g/R)^1/2): rate at which numerical drift at closed contacts is damped
 ROLLS = 1e-3  # ((g/R)^1/2): w_h below which rolling resistance goes to zero
@@ -60,7 +58,7 @@ def carried(ball: int, stem: int) -> int:
 
 @compiled
 def cross(x: Vector, y: Vector) -> Vector:
-    return x[1] * y[PZ] - x[2] * y[PY], x[2] * y[PX] - x[0] * y[PZ], x[0] * y[PY] - x[1] * y[PX]
+    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
 
 
 @compiled
@@ -71,7 +69,7 @@ def row(rows: Array, i: int) -> Vector:
 @compiled
 def turning(y: Array, P: Record) -> Turning:
     """e, w = L/I1 + k (L . e) e, and L . e."""
-    px, py, pz, pw, L = y[PX], y[PY], y[PZ], y[PW], (y[LX], y[LY], y[LZ])
+    px, py, pz, pw, L = y[at.PX], y[at.PY], y[at.PZ], y[at.PW], (y[at.LX], y[at.LY], y[at.LZ])
     e = 2 * (px * pz + pw * py), 2 * (py * pz - pw * px), 1 - 2 * (px * px + py * py)
     L3 = L[0] * e[0] + L[1] * e[1] + L[2] * e[2]
     along = P.k * L3
@@ -101,11 +99,11 @@ def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) 
     e, w, L3 = turning(y, P)
     place(e, w, P, C)
     G = C.G
-    G[0], G[1], G[2], G[3] = y[VX], y[VY], y[VZ], y[Z]
+    G[0], G[1], G[2], G[3] = y[at.VX], y[at.VY], y[at.VZ], y[at.Z]
     ux, uy = 0.0, 0.0
     if slowest != NO_ONE:
-        speed, carried = np.exp(min(y[LOG_U], LOG_FAST)), cross(w, row(C.rho, slowest))
-        ux, uy = speed * np.cos(y[BETA]), speed * np.sin(y[BETA])
+        speed, carried = np.exp(min(y[at.LOG_U], LOG_FAST)), cross(w, row(C.rho, slowest))
+        ux, uy = speed * np.cos(y[at.BETA]), speed * np.sin(y[at.BETA])
         G[0], G[1] = ux - carried[0], uy - carried[1]
     if ball != OPEN or stem != OPEN:
         first, mode = (BALL, ball) if ball != OPEN else (STEM, stem)
@@ -165,7 +163,7 @@ def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
             n = column(C, n, i, 2, (0.0, 0.0, 1.0), (rolls[0], rolls[1], 0.0))
             n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
             n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
-            if P.law.patch and (ball == OPEN or stem == OPEN):
+            if P.law.radius > 0.0 and (ball == OPEN or stem == OPEN):
                 n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     return n
 
@@ -286,7 +284,7 @@ def clock(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
     |u|^2 is replaced by |u|^2 + (radius w_z)^2."""
     g = 1.0
     if P.law.mu_s > 0.0:
-        spin = P.law.width * w_z
+        spin = P.law.radius * w_z
         for i in range(1 + P.stem):
             if (ball if i == BALL else stem) == SLIP:
                 speed = np.sqrt(C.u[i, 0] ** 2 + C.u[i, 1] ** 2 + spin * spin)
@@ -299,33 +297,32 @@ def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, ou
     """Writes dy/dtau into out; returns what forces() returns."""
     e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
     minor = forces(turn, ball, stem, P, C)
-    px, py, pz, pw, w3 = y[PX], y[PY], y[PZ], y[PW], L3 / P.I3
+    px, py, pz, pw, w3 = y[at.PX], y[at.PY], y[at.PZ], y[at.PW], L3 / P.I3
     ox, oy, oz = (w[0] - w3 * e[0]) / 2, (w[1] - w3 * e[1]) / 2, (w[2] - w3 * e[2]) / 2  # half that of the frame
-    out[PX], out[PY] = ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz
-    out[PZ], out[PW] = oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz
+    out[at.PX], out[at.PY] = ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz
+    out[at.PZ], out[at.PW] = oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz
     heat = P.drag * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     for i in range(1 + P.stem):
         for axis in range(3):
             heat -= C.F[i, axis] * C.u[i, axis] + C.M[i, axis] * w[axis]
-    out[CHI], out[LX], out[LY], out[LZ] = w3, C.L_dot[0], C.L_dot[1], C.L_dot[2]
-    out[VX], out[VY], out[X], out[Y] = C.v_dot[0], C.v_dot[1], C.G[0], C.G[1]
-    out[TIME], out[HEAT], out[VZ], out[Z] = 1.0, heat, C.v_dot[2], C.G[2]
+    out[at.CHI], out[at.LX], out[at.LY], out[at.LZ] = w3, C.L_dot[0], C.L_dot[1], C.L_dot[2]
+    out[at.VX], out[at.VY], out[at.X], out[at.Y] = C.v_dot[0], C.v_dot[1], C.G[0], C.G[1]
+    out[at.TIME], out[at.HEAT], out[at.VZ], out[at.Z] = 1.0, heat, C.v_dot[2], C.G[2]
     g = clock(ball, stem, w[2], P, C)
     if g != 1.0:
         for j in range(16):
             out[j] *= g
     if slowest != NO_ONE:  # log|u|' = |u|'/|u|, and beta' = (u' perpendicular to u)/|u|
-        speed, along, across = np.exp(min(y[LOG_U], LOG_FAST)), np.cos(y[BETA]), np.sin(y[BETA])
+        speed, along, across = np.exp(min(y[at.LOG_U], LOG_FAST)), np.cos(y[at.BETA]), np.sin(y[at.BETA])
         x_dot, y_dot = slip_rate(w, slowest, 0, C), slip_rate(w, slowest, 1, C)
-        out[LOG_U], out[BETA] = (
-            (x_dot * along + y_dot * across) * g / speed,
-            (y_dot * along - x_dot * across) * g / speed,
-        )
+        out[at.LOG_U] = (x_dot * along + y_dot * across) * g / speed
+        out[at.BETA] = (y_dot * along - x_dot * across) * g / speed
     return minor
 
 
 @compiled
 def kinetic(y: Array, L3: float, P: Record) -> float:
     """L^2/(2 I1) + k (L . e)^2/2 + v^2/2"""
-    L_squared, v_squared = y[LX] * y[LX] + y[LY] * y[LY] + y[LZ] * y[LZ], y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ]
+    L_squared = y[at.LX] * y[at.LX] + y[at.LY] * y[at.LY] + y[at.LZ] * y[at.LZ]
+    v_squared = y[at.VX] * y[at.VX] + y[at.VY] * y[at.VY] + y[at.VZ] * y[at.VZ]
     return (L_squared / P.I1 + (1 / P.I3 - 1 / P.I1) * L3 * L3 + v_squared) / 2

@@ -1,54 +1,29 @@
 """What happens in a motion: the table of events, where in a step one of them happens, the log, and how the motion goes
 on after it."""
 
+from typing import Any
+
 import numpy as np
 
 from ..compiled import compiled, shared_with_kernels
 from ..paper.search import fallen
 from ..types import Array, Number
-from .contacts import (
-    BALANCES,
-    HALTS,
-    LEAVES,
-    NONE,
-    RIM,
-    ROCKS,
-    SLIPS,
-    STANDS_UP,
-    STARTS,
-    TOUCHES,
-    Event,
-    first_negative,
-    guards,
-    settle,
-)
-from .dynamics import BALL, OPEN, STEM, carried, turning
+from . import at, contacts
+from .dynamics import carried, turning
+from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event
 from .poses import turned
-from .records import TIME, Record
+from .records import BALL, OPEN, STEM, Record
 from .standing import leaning, lies
 from .stepper import at_share
 
 CHANGES, ENDS, NOTES = range(3)  # after an event the motion goes on in other modes, or ends, or goes on as before
 EVENTS = (
-    ("sticks", CHANGES),
-    ("slips", CHANGES),
-    ("lifts off", CHANGES),
-    ("lands", CHANGES),
-    ("lands on its stem", CHANGES),
-    ("stem touches", CHANGES),
-    ("ball touches", CHANGES),
-    ("stem leaves", CHANGES),
-    ("stands on its stem", CHANGES),
-    ("falls back on its ball", CHANGES),
-    ("rocks over", CHANGES),
-    ("rim touches", ENDS),
-    ("stands upright", ENDS),
-    ("Painleve's limit", ENDS),
-    ("too many events", ENDS),
-    ("too many turns", ENDS),
-    ("theta passes 90 degrees", NOTES),
-    ("the stem's first touch", NOTES),
-)
+    ("sticks", CHANGES), ("slips", CHANGES), ("lifts off", CHANGES), ("lands", CHANGES), ("lands on its stem", CHANGES),
+    ("stem touches", CHANGES), ("ball touches", CHANGES), ("stem leaves", CHANGES), ("stands on its stem", CHANGES),
+    ("falls back on its ball", CHANGES), ("rocks over", CHANGES), ("rim touches", ENDS), ("stands upright", ENDS),
+    ("Painleve's limit", ENDS), ("too many events", ENDS), ("too many turns", ENDS),
+    ("theta passes 90 degrees", NOTES), ("the stem touches first", NOTES),
+)  # fmt: skip
 STICKS, SLIPS_OFF, LIFTS_OFF, LANDS, LANDS_ON_STEM, STEM_TOUCHES, BALL_TOUCHES, STEM_LEAVES, STANDS_ON_STEM = range(9)
 FALLS_BACK, ROCKS_OVER, RIM_TOUCHES, STANDS_UPRIGHT, PAINLEVE, TOO_MANY_EVENTS, TOO_MANY_TURNS = range(9, 16)
 PASSES_90, FIRST_TOUCH = 16, 17
@@ -77,7 +52,7 @@ def first_event(W: Record, P: Record, slowest: int) -> tuple[Event, float]:
     for n in range(1, LOOKS + 1):
         x = n / LOOKS
         watch(W, P, slowest, x)
-        if first_negative(W.guards)[0] == NONE:
+        if contacts.first_negative(W.guards)[0] == NONE:
             before = x
             continue
         negative = W.guards < 0
@@ -96,7 +71,7 @@ def watch(W: Record, P: Record, slowest: int, x: float) -> None:
     """Computes the guards at the fraction x of the step."""
     C = W.contacts
     at_share(W.step, x, W.step.at)
-    guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
+    contacts.guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
 
 
 @shared_with_kernels
@@ -128,11 +103,12 @@ def happens(W: Record, P: Record, log: Array, event: Event, flies: bool) -> bool
     W.begins = 1
     if kind == TOUCHES and i == STEM:
         touched(W, log)
-    goes_on = settle(y, event, W.modes, P, W.step, C)
+    goes_on = contacts.settle(y, event, W.modes, P, W.step, C)
     turned(y, W.angles)
     if not goes_on:
         W.modes[BALL], W.modes[STEM] = ball, stem
-        left_ball, left_stem = (OPEN if event == (LEAVES, BALL) else ball), (OPEN if event == (LEAVES, STEM) else stem)
+        left_ball = OPEN if event == (LEAVES, BALL) else ball
+        left_stem = OPEN if event == (LEAVES, STEM) else stem
         logged(W, log, change(ball, stem, left_ball, left_stem, event), ball, stem)
         logged(W, log, PAINLEVE, ball, stem)
         return True
@@ -155,7 +131,7 @@ def happens(W: Record, P: Record, log: Array, event: Event, flies: bool) -> bool
 @compiled
 def logged(W: Record, log: Array, name: int, ball: int, stem: int) -> None:
     """Adds an event to the log."""
-    enter(W, log, W.y[TIME], name, carried(ball, stem))
+    enter(W, log, W.y[at.TIME], name, carried(ball, stem))
     W.events += 1
     W.summary.hops += name == LIFTS_OFF
 
@@ -175,11 +151,16 @@ def enter(W: Record, log: Array, t: float, name: int, supports: int) -> None:
     W.logged += 1
 
 
+def first(log: Any, name: int) -> float:
+    """When something happens for the first time, nan if never."""
+    return float(next(iter(log["t"][log["name"] == name]), np.nan))
+
+
 @compiled
 def touched(W: Record, log: Array) -> None:
     """Notes that the stem touches now, if it is the first time."""
     if not W.summary.touched:
-        noted(W, log, FIRST_TOUCH, W.y[TIME])
+        noted(W, log, FIRST_TOUCH, W.y[at.TIME])
     W.summary.touched = 1
 
 

@@ -26,15 +26,15 @@ class Law(NamedTuple):
     """A law in the form that kernels use.
 
     kind tells push() its formula. mu_s: the coefficient of static friction, 0 if there is none: otherwise the law is
-    set-valued at rest, and a slip may stop. width: eps, or the radius. patch: whether the contact is a patch, which
-    has a torque and stops only if it does not spin either.
+    set-valued at rest, and a slip may stop. width: a speed in the formula. radius: that of a contact that is a patch,
+    not a point: it has a torque, and stops only if it does not spin either.
     """
 
     kind: int
     mu: float
     mu_s: float
-    width: float
-    patch: bool = False
+    width: float = 0.0
+    radius: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class Coulomb(_Friction):
 
     @property
     def law(self) -> Law:
-        return Law(COULOMB, self.mu_k, self.mu_s, 0.0)
+        return Law(COULOMB, self.mu_k, self.mu_s)
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class Viscous(_Friction):
 
     @property
     def law(self) -> Law:
-        return Law(VISCOUS, self.gamma, 0.0, 0.0)
+        return Law(VISCOUS, self.gamma, 0.0)
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ class Contensou(_Friction):
 
     @property
     def law(self) -> Law:
-        return Law(CONTENSOU if self.radius else COULOMB, self.mu, self.mu, self.radius, self.radius > 0)
+        return Law(CONTENSOU if self.radius else COULOMB, self.mu, self.mu, radius=self.radius)
 
 
 Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb | Contensou
@@ -163,8 +163,8 @@ def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
         return law.mu, 0.0
     if law.kind == SMOOTHED:
         return law.mu / np.sqrt(square + law.width * law.width), 0.0
-    if law.kind == CONTENSOU and law.width * abs(omega_n) > LEAST:
-        return contensou(law.mu, law.width, square, omega_n)
+    if law.kind == CONTENSOU and law.radius * abs(omega_n) > LEAST:
+        return contensou(law.mu, law.radius, square, omega_n)
     return (law.mu / np.sqrt(square) if square > 0.0 else 0.0), 0.0
 
 
@@ -172,13 +172,13 @@ def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
 def bounds(law: Law) -> tuple[float, float]:
     """The largest |F_h| and |T| per unit of F_z at a contact that neither slips nor spins: mu_s and, for Contensou's
     law, (3 pi/16) mu radius."""
-    return law.mu_s, (3 * np.pi / 16 * law.mu * law.width if law.patch else 0.0)
+    return law.mu_s, 3 * np.pi / 16 * law.mu * law.radius
 
 
 @compiled
 def is_point(law: Law) -> bool:
     """Whether a slip may stop at a point, as with Coulomb's law: its direction is undefined there."""
-    return law.mu_s > 0.0 and not law.patch
+    return law.mu_s > 0.0 and law.radius == 0.0
 
 
 def sticks(law: Law, omega_n: float) -> bool:

@@ -15,15 +15,17 @@ import numpy as np
 from ..compiled import compiled, shared_with_kernels
 from ..paper.search import zero
 from ..types import Array
-from .dynamics import SLOW
+from . import at
+from .dynamics import SLOW, angular, arrange, column, component, cross, kinetic, row, turning
 from .elimination import solve
 from .friction import bounds, push
-from .records import Record
+from .records import NO_ONE, OPEN, Record
 from .stepper import ORDER, STAGES, A, B, error, factor, stage
 
 STOPPED = 1e-9  # relative to the speed of the impact: a smaller slip counts as 0
 DIGITS = 1e-12  # the tolerance of a step, relative to the same
 MOST_STEPS = 10_000
+REST = 1e-11  # ((gR)^1/2): slip below which a contact may stick
 Slip: TypeAlias = tuple[float, float, float, float]  # u, w_z
 
 
@@ -67,16 +69,16 @@ def after(I: Record, J: Array) -> Slip:
 @compiled
 def spread(q: Slip, law: Record) -> float:
     """The slip speed of the contact, including that of the spin of its patch."""
-    return np.sqrt(q[0] * q[0] + q[1] * q[1] + (law.width * q[3]) ** 2)
+    return np.sqrt(q[0] * q[0] + q[1] * q[1] + (law.radius * q[3]) ** 2)
 
 
 @compiled
 def held(W: Array, q: Slip, law: Record) -> Array:
     """The impulse that brings (u, w_z) = q to rest; w_z only if the law has a torque."""
     matrix, J = W.copy(), np.array([-q[0], -q[1], -q[2], -q[3]])
-    if not law.patch:
+    if law.radius == 0.0:
         J[3] = 0.0
-    solve(matrix, J, 4 if law.patch else 3)
+    solve(matrix, J, 4 if law.radius > 0.0 else 3)
     return J
 
 
@@ -119,3 +121,52 @@ def grow(I: Record, law: Record, J: Array, out: Array) -> None:
         speed = spread(q, law)
         g = speed / (speed + SLOW * I.scale)
     out[0], out[1], out[2], out[3] = -k * q[0] * g, -k * q[1] * g, g, -t * g
+
+
+# ---- the effect of an impulse at a contact, and the final halt of a slip ----
+
+
+@compiled
+def mobility(i: int, j: int, y: Array, P: Record, C: Record) -> Array:
+    """(4, 4): the change of (u_i, w_z) per unit of impulse, and of angular impulse about z, at contact j."""
+    e, W, zero = turning(y, P)[0], np.zeros((4, 4)), (0.0, 0.0, 0.0)
+    for axis in range(4):
+        one = (1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0)
+        column(C, 0, j, 2, one, (0.0, 0.0, 1.0) if axis == 3 else zero)
+        w_dot = angular((C.columns[0, 3], C.columns[0, 4], C.columns[0, 5]), e, P)
+        for part in range(4):
+            W[part, axis] = component(C, one, w_dot, i, part)
+    return W
+
+
+@compiled
+def pushed(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
+    """y after the impulse and angular impulse J (4,) at contact i; the energy lost is added to the heat."""
+    before, impulse = kinetic(y, turning(y, P)[2], P), (J[0], J[1], J[2])
+    torque = cross(row(C.rho, i), impulse)
+    y[at.LX], y[at.LY], y[at.LZ] = y[at.LX] + torque[0], y[at.LY] + torque[1], y[at.LZ] + torque[2] + J[3]
+    y[at.VX], y[at.VY], y[at.VZ] = y[at.VX] + J[0], y[at.VY] + J[1], y[at.VZ] + J[2]
+    y[at.HEAT] += before - kinetic(y, turning(y, P)[2], P)
+
+
+@compiled
+def moving(y: Array, i: int, P: Record, C: Record) -> Array:
+    """(u, w_z) of contact i; the positions of the contacts go into C."""
+    _, w, _ = arrange(y, NO_ONE, OPEN, OPEN, P, C)
+    return np.array([C.u[i, 0], C.u[i, 1], C.u[i, 2], w[2]])
+
+
+@compiled
+def rests(y: Array, i: int, P: Record, C: Record) -> bool:
+    """Whether contact i may stick."""
+    if P.law.mu_s == 0.0:
+        return False
+    q = moving(y, i, P, C)
+    return np.sqrt(q[0] ** 2 + q[1] ** 2 + (P.law.radius * q[3]) ** 2) < REST
+
+
+@compiled
+def halted(y: Array, i: int, P: Record, C: Record) -> None:
+    """y with the rest of the slip of contact i removed."""
+    q = moving(y, i, P, C)
+    pushed(y, i, held(mobility(i, i, y, P, C), (q[0], q[1], q[2], q[3]), P.law), P, C)

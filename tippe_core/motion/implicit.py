@@ -14,10 +14,11 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
+from . import at
 from .contacts import margin
-from .dynamics import BALL, NO_ONE, SLIP, STEM, clock, rates, turning
+from .dynamics import clock, rates, turning
 from .elimination import decompose, substitute
-from .records import PW, TIME, Record
+from .records import BALL, NO_ONE, SLIP, STEM, Record
 from .stepper import STAGES, stage
 
 IMPLICIT_ORDER = 5
@@ -70,7 +71,7 @@ def slowness(w_z: float, ball: int, stem: int, P: Record, C: Record) -> tuple[fl
     for i in range(1 + P.stem):
         if (ball if i == BALL else stem) == SLIP:
             u = np.hypot(C.u[i, 0], C.u[i, 1])
-            least = min(least, np.hypot(u, P.law.width * w_z))
+            least = min(least, np.hypot(u, P.law.radius * w_z))
             if u > 0.0:
                 k_N = max(k_N, np.hypot(C.F[i, 0], C.F[i, 1]) / u)
     return least, k_N
@@ -89,7 +90,7 @@ def is_stiff(W: Record, P: Record, h: float) -> bool:
 def rates_in_time(z: Array, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
     """rates(), as dz/dt."""
     minor = rates(z, NO_ONE, ball, stem, P, C, out)
-    g = out[TIME]
+    g = out[at.TIME]
     for i in range(16):
         out[i] /= g
     return minor
@@ -106,7 +107,7 @@ def differentiate(W: Record, P: Record) -> None:
     S.at[:] = S.z
     for n in range(len(FEEDS)):
         i = FEEDS[n]
-        S.at[i] += small if i > PW else small / (1 + abs(w[0]) + abs(w[1]) + abs(w[2]))
+        S.at[i] += small if i > at.PW else small / (1 + abs(w[0]) + abs(w[1]) + abs(w[2]))
         rates_in_time(S.at, ball, stem, P, C, S.K[1])
         for j in range(16):
             S.J[j, n] = (S.K[1, j] - S.K[0, j]) / (S.at[i] - S.z[i])

@@ -2,7 +2,7 @@
 
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, NamedTuple
@@ -11,37 +11,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..classify import LAST, judged
-from ..errors import TopError, common_shape, has_arrays, numbers, single
+from ..errors import TopError, common_shape, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
-from .dynamics import OPEN, carried
-from .events import (
-    FIRST_TOUCH,
-    LIFTS_OFF,
-    PAINLEVE,
-    PASSES_90,
-    RIM_TOUCHES,
-    STANDS_UPRIGHT,
-    SUPPORTS,
-    TOO_MANY_EVENTS,
-    logged,
-)
+from . import at, events, preparing
+from .dynamics import carried
 from .friction import LAWS
 from .periodic import run_all
 from .poses import sample_at
-from .preparing import (
-    beginning,
-    check_balance,
-    checked_edge,
-    checked_loss,
-    checked_rtol,
-    flies,
-    motion,
-    problem,
-    start,
-)
-from .records import HEAT, LOG, SAMPLE, Record, new
+from .records import LOG, OPEN, SAMPLE, Record, new
 from .run import ENDED, MORE
 from .sliding import beside, checked_nudge
 from .summary import begin, energy
@@ -104,7 +83,10 @@ class Many:
     reason: NDArray[np.str_]
 
 
+# The result of one motion, in the order of Many, with the State as a row of numbers.
 NUMBERS = ("time_90", "time_stem", "F_z_least", "heat", "energy_error", "C_J_drift", "growth")
+RESULT = np.dtype([("state", float, len(States._fields)), *((name, float) for name in NUMBERS), ("hops", int),
+                   ("end", "U9"), ("reason", "U20")])  # fmt: skip
 
 
 class _How(NamedTuple):
@@ -137,32 +119,31 @@ def slide_many(
     CELLS of them each, are still computed). Raises TopError for shapes that do not broadcast, for anything that is
     no top, state or law, and for a bad rtol, nudge, rolling_resistance, air_drag or landing.
     """
-    losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
-    how = _How(checked_rtol(rtol), None if nudge is None else checked_nudge(nudge), losses, flies(landing),
+    how = _How(preparing.checked_rtol(rtol), None if nudge is None else checked_nudge(nudge),
+               preparing.checked_losses(rolling_resistance, air_drag), preparing.flies(landing),
                threading.Event() if executor is None else None)  # fmt: skip
-    times = numbers("t_end", t_end)
-    rims = np.empty((), object) if edge is None else _objects([tuple(rim) for rim in _rows(edge)], np.shape(edge)[:-1])
-    parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS), times, rims]
+    rims = np.array(None, object) if edge is None else _rims(edge)
+    parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS),
+             numbers("t_end", t_end), rims]  # fmt: skip
     shape = common_shape("t_end", "shapes of top, state, friction, t_end and edge that broadcast", *parts)
     cells = list(zip(*(np.broadcast_to(part, shape).ravel().tolist() for part in parts), strict=True))
     if executor is not None:
-        return _many(_all(cells, how, progress, executor), shape)
+        return _many(_all(cells, how, progress, executor).reshape(shape))
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     with ThreadPoolExecutor(cores) as threads:
-        return _many(_all(cells, how, progress, threads), shape)
+        return _many(_all(cells, how, progress, threads).reshape(shape))
 
 
-def _rows(edge: ArrayLike) -> Array:
+def _rims(edge: ArrayLike) -> NDArray[np.object_]:
+    """An array of (radius, height, rounding)."""
     rows = numbers("edge", edge)
     if rows.ndim == 0 or rows.shape[-1] not in (2, 3):
         raise TopError("edge", edge, "(radius, height, rounding)", code="wrong-kind")
-    return rows.reshape(-1, rows.shape[-1])
+    return _objects(map(tuple, rows.reshape(-1, rows.shape[-1]).tolist()), rows.shape[:-1])
 
 
-def _objects(items: list[Any], shape: tuple[int, ...]) -> NDArray[np.object_]:
-    cells = np.empty(len(items), object)
-    cells[:] = items
-    return cells.reshape(shape)
+def _objects(items: Iterable[Any], shape: tuple[int, ...]) -> NDArray[np.object_]:
+    return np.fromiter(items, object).reshape(shape)
 
 
 def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
@@ -172,38 +153,33 @@ def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
         for cell in cells.flat:
             single(name, cell, *kinds)
         return cells
-    if isinstance(given, kinds) and not has_arrays(given):
-        return _objects([given], ())
     missing = {}
-    for kind in kinds:
-        found = [field.name for field in fields(kind) if getattr(given, field.name, None) is not None]
-        missing[kind.__name__] = [field.name for field in fields(kind) if field.default is MISSING
-                                  and field.name not in found]  # fmt: skip
-        if not missing[kind.__name__]:
-            return _possible(kind, {field: getattr(given, field) for field in found}, name)
-    wanted = " | ".join(f"{kind} with {', '.join(names)}" for kind, names in missing.items())
+    for kind in (type(given),) if isinstance(given, kinds) else kinds:
+        values = {field.name: getattr(given, field.name, None) for field in fields(kind)}
+        missing[kind] = [
+            field.name for field in fields(kind) if field.default is MISSING and values[field.name] is None
+        ]
+        if not missing[kind]:
+            arrays = {
+                field: numbers(field, value, finite=False) for field, value in values.items() if value is not None
+            }
+            shape = common_shape(name, "fields that broadcast together", *arrays.values())
+            columns = (np.broadcast_to(array, shape).ravel().tolist() for array in arrays.values())
+            return _objects([_possible(kind, arrays, row) for row in zip(*columns, strict=True)], shape)
+    wanted = " | ".join(f"{kind.__name__} with {', '.join(names)}" for kind, names in missing.items())
     raise TopError(name, type(given).__name__, wanted, code="wrong-kind")
 
 
-def _possible(kind: type, given: dict[str, Any], name: str) -> NDArray[np.object_]:
-    """The instances of one kind whose fields are arrays, or the codes of the TopErrors that they raise."""
-    arrays = [numbers(field, value, finite=False) for field, value in given.items()]
-    shape = common_shape(name, "fields that broadcast together", *arrays)
-
-    def made(row: tuple[float, ...]) -> Any:
-        try:
-            return kind(**dict(zip(given, row, strict=True)))
-        except TopError as error:
-            return error.code
-
-    rows = zip(*(np.broadcast_to(array, shape).ravel().tolist() for array in arrays), strict=True)
-    return _objects([made(row) for row in rows], shape)
+def _possible(kind: type, names: Iterable[str], row: tuple[float, ...]) -> Any:
+    """An instance of the kind with these fields, or the code of the TopError that it raises."""
+    try:
+        return kind(**dict(zip(names, row, strict=True)))
+    except TopError as error:
+        return error.code
 
 
-def _all(
-    cells: list[Any], how: _How, progress: Callable[[float], object] | None, executor: Executor
-) -> list[dict[str, Any]]:
-    """The results of all cells."""
+def _all(cells: list[Any], how: _How, progress: Callable[[float], object] | None, executor: Executor) -> Any:
+    """The RESULTs of all cells."""
     jobs = [executor.submit(_some, cells[first : first + CELLS], how) for first in range(0, len(cells), CELLS)]
     done = 0
     try:
@@ -211,7 +187,7 @@ def _all(
             done += len(job.result())
             if progress:
                 progress(done / len(cells))
-        return [result for job in jobs for result in job.result()]
+        return np.concatenate([np.zeros(0, RESULT), *(job.result() for job in jobs)])
     except BaseException:
         if how.stop:
             how.stop.set()
@@ -220,79 +196,81 @@ def _all(
         raise
 
 
-def _some(cells: list[Any], how: _How) -> list[dict[str, Any]]:
-    return [_cell(cell, how) for cell in cells]
+def _some(cells: list[Any], how: _How) -> Any:
+    """The RESULTs of some motions: what each came to, or that it is refused, and why."""
+    found = np.zeros(len(cells), RESULT)
+    found["end"] = "refused"
+    for name in ("state", *NUMBERS):
+        found[name] = np.nan
+    for row, cell in zip(found, cells, strict=True):
+        try:
+            _compute(row, cell, how)
+        except TopError as error:
+            row["reason"] = error.code
+    return found
 
 
-def _cell(cell: tuple[Any, ...], how: _How) -> dict[str, Any]:
-    """The results of one motion, or that it is refused, and why."""
-    for part in cell[:3]:
-        if isinstance(part, str):
-            return {"end": "refused", "reason": part}
+def _compute(row: Any, cell: tuple[Any, ...], how: _How) -> None:
+    """Writes the RESULT of one motion into the row."""
+    codes = [part for part in cell[:3] if isinstance(part, str)]
+    if codes:
+        row["reason"] = codes[0]
+        return
     top, state, friction, t_end, edge = cell
-    try:
-        if t_end < 0:
-            raise TopError("t_end", t_end, "t_end >= 0")
-        check_balance(top, friction)
-        P = problem(top, friction, checked_edge(edge), how.losses, how.rtol)
-        found = _followed(state, P, t_end, how)
-        if how.nudge is not None:
-            beside_it = _followed(beside(state, how.nudge), P, t_end, how)
-            found["growth"] = abs(beside_it["state"][0] - found["state"][0]) / abs(how.nudge)
-        return found
-    except TopError as error:
-        return {"end": "refused", "reason": error.code}
+    if t_end < 0:
+        raise TopError("t_end", t_end, "t_end >= 0")
+    preparing.check_balance(top, friction)
+    P = preparing.problem(top, friction, preparing.checked_edge(edge), how.losses, how.rtol)
+    _follow(row, state, P, t_end, how)
+    if how.nudge is not None:
+        near = np.zeros((), RESULT)[()]
+        _follow(near, beside(state, how.nudge), P, t_end, how)
+        row["growth"] = abs(near["state"][0] - row["state"][0]) / abs(how.nudge)
 
 
 # why a motion is refused that ends with this event
-REASONS = {PAINLEVE: "too-strong", RIM_TOUCHES: "beyond-rim", TOO_MANY_EVENTS: "too-many-events",
-           LIFTS_OFF: "lifts-off"}  # fmt: skip
+REASONS = {events.PAINLEVE: "too-strong", events.RIM_TOUCHES: "beyond-rim", events.TOO_MANY_EVENTS: "too-many-events",
+           events.LIFTS_OFF: "lifts-off"}  # fmt: skip
 
 
-def _followed(state: State, P: Record, t_end: float, how: _How) -> dict[str, Any]:
-    y, angles = beginning(state, 0.0, P)
-    W, log, status = motion(y, angles), np.zeros(2 * MOST_EVENTS, LOG), ENDED
-    _, goes_on = start(W, P, state.theta)
+def _follow(row: Any, state: State, P: Record, t_end: float, how: _How) -> None:
+    y, angles = preparing.beginning(state, 0.0, P)
+    W, log, status = preparing.motion(y, angles), np.zeros(2 * MOST_EVENTS, LOG), ENDED
+    _, goes_on = preparing.start(W, P, state.theta)
     E = energy(W, P)
     begin(W, P, log, (1 - LAST) * t_end)
     if goes_on and not carried(*W.modes) and not how.flies:
-        logged(W, log, LIFTS_OFF, OPEN, OPEN)
+        events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
     elif goes_on:
         status = MORE
         while status == MORE and W.steps < MOST_STEPS and not (how.stop and how.stop.is_set()):
             status = run_all(W, P, log, t_end, how.flies, EACH)
-    T, last = W.summary, log[W.logged - 1].name if status == ENDED and W.logged else -1
-    first = {name: t for t, name, _ in log[W.logged - 1 :: -1].tolist()} if W.logged else {}
+    T, entries, here = W.summary, log[: W.logged], new(SAMPLE)
+    last = entries["name"][-1] if status == ENDED and len(entries) else -1
     reason = ("too-strong" if not goes_on else "too-many-steps" if status == MORE
               else REASONS.get(last, "") if np.all(np.isfinite(W.y)) else "not-followed")  # fmt: skip
-    on = "stem" if last == STANDS_UPRIGHT else {1 << carried: on for carried, on in enumerate(SUPPORTS)}.get(T.seen, "")
-    drift = T.drift / (abs(T.C_J) or 1.0)
-    pivots = P.law.patch or P.drag > 0 or P.delta > 0
-    return {"state": _state(W, P), "time_90": first.get(PASSES_90, np.nan),
-            "time_stem": first.get(FIRST_TOUCH, np.nan), "hops": T.hops,
-            "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[HEAT],
-            "energy_error": energy(W, P) + W.y[HEAT] - E, "C_J_drift": np.nan if pivots else drift,
-            "end": judged(bool(reason), on, T.least, T.most, not T.slips), "reason": reason}  # fmt: skip
-
-
-def _state(W: Record, P: Record) -> list[float]:
-    """The fields of the final State."""
-    here = new(SAMPLE)
+    on = (
+        "stem"
+        if last == events.STANDS_UPRIGHT
+        else {1 << i: support for i, support in enumerate(events.SUPPORTS)}.get(T.seen, "")
+    )
     sample_at(W, P, OPEN, OPEN, here)
-    return [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2]]
+    row["state"] = [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2]]
+    row["time_90"], row["time_stem"] = (
+        events.first(entries, events.PASSES_90),
+        events.first(entries, events.FIRST_TOUCH),
+    )
+    row["F_z_least"], row["hops"] = T.F_z_least if np.isfinite(T.F_z_least) else np.nan, T.hops
+    row["heat"], row["energy_error"] = W.y[at.HEAT], energy(W, P) + W.y[at.HEAT] - E
+    if not (P.law.radius > 0 or P.drag > 0 or P.delta > 0):
+        row["C_J_drift"] = T.drift / (abs(T.C_J) or 1.0)
+    row["end"], row["reason"] = judged(bool(reason), on, T.least, T.most, not T.slips), reason
 
 
-def _many(found: list[dict[str, Any]], shape: tuple[int, ...]) -> Many:
-    def gathered(values: Any, kind: type) -> Any:
-        array: Any = np.array(values, kind).reshape(shape)
-        array.flags.writeable = False
-        return array
-
-    lost = [np.nan] * len(States._fields)
-    states = np.array([one.get("state", lost) for one in found]).reshape(len(found), len(lost)).T
-    parts = {name: gathered([one.get(name, np.nan) for one in found], float) for name in NUMBERS}
-    hops = np.array([one.get("hops", 0) for one in found])
-    return Many(theta_end=gathered(states[0], float), state_end=States(*(gathered(x, float) for x in states)),
-                hops=gathered(hops, int), flew=gathered(hops > 0, bool),
-                end=gathered([one["end"] for one in found], str),
-                reason=gathered([one["reason"] for one in found], str), **parts)  # fmt: skip
+def _many(found: Any) -> Many:
+    """Many, from the RESULTs."""
+    parts = {name: np.array(found[name]) for name in (*NUMBERS, "hops", "end", "reason")}
+    states = States(*(np.array(part) for part in np.moveaxis(found["state"], -1, 0)))
+    for part in (*parts.values(), flew := np.array(parts["hops"] > 0), *states):
+        part.flags.writeable = False
+    return Many(theta_end=states.theta, state_end=states, flew=flew, **parts)

@@ -7,11 +7,11 @@ import numpy as np
 from ..compiled import compiled
 from ..paper.search import zero
 from ..types import Array
-from .contacts import Event
-from .dynamics import NO_ONE
+from . import at
 from .events import happens
+from .kinds import Event
 from .poses import tilt, turned
-from .records import CHI, LX, PW, PX, PY, PZ, SAMPLE, TIME, VX, Record, X, Y
+from .records import NO_ONE, SAMPLE, Record
 from .run import ENDED, MORE, OVER, ROLLS, follow, run
 from .stepper import at_share, densely
 from .summary import up_rate, up_rate_at
@@ -61,11 +61,11 @@ def nutate(W: Record, P: Record, log: Array, none: Array, rows: Array, end: floa
 def turns(W: Record, P: Record, out: Array) -> None:
     """Writes (t, phi, psi, x, y, theta) at a maximum or minimum of theta in the last step into out."""
     S, angles = W.step, W.angles.copy()
-    densely(W, P, NO_ONE, S.new[TIME] - S.z[TIME])
+    densely(W, P, NO_ONE, S.new[at.TIME] - S.z[at.TIME])
     at_share(S, zero(up_rate_at, 0.0, 1.0, (S, P)), S.at)
     turned(S.at, angles)
-    out[0], out[1], out[2] = S.at[TIME], angles[0] + angles[1], angles[0] - angles[1] + S.at[CHI]
-    out[3], out[4] = S.at[X], S.at[Y]
+    out[0], out[1], out[2] = S.at[at.TIME], angles[0] + angles[1], angles[0] - angles[1] + S.at[at.CHI]
+    out[3], out[4] = S.at[at.X], S.at[at.Y]
     out[5] = tilt(S.at)
 
 
@@ -75,26 +75,26 @@ def skip(y: Array, angles: Array, first: Array, second: Array, end: float) -> bo
 
     Each maps the horizontal position G_h of G, as a complex number, to turn G_h + moves, turn = exp i(advance of phi).
     """
-    n = np.floor((end - y[TIME]) / (second[0] - first[0]))
+    n = np.floor((end - y[at.TIME]) / (second[0] - first[0]))
     if n < 1.0:
         return False
     phi, psi = second[1] - first[1], second[2] - first[2]
     turn, turns = complex(np.cos(phi), np.sin(phi)), complex(np.cos(n * phi), np.sin(n * phi))
     moves = complex(second[3], second[4]) - turn * complex(first[3], first[4])
-    G = turns * complex(y[X], y[Y]) + moves * ((turns - 1) / (turn - 1) if abs(turn - 1) > 1e-9 else n)
-    y[X], y[Y] = G.real, G.imag
-    for i in (LX, VX):
+    G = turns * complex(y[at.X], y[at.Y]) + moves * ((turns - 1) / (turn - 1) if abs(turn - 1) > 1e-9 else n)
+    y[at.X], y[at.Y] = G.real, G.imag
+    for i in (at.LX, at.VX):
         across = turns * complex(y[i], y[i + 1])
         y[i], y[i + 1] = across.real, across.imag
     c, s = np.cos(n * phi / 2), np.sin(n * phi / 2)
-    y[PX], y[PY], y[PZ], y[PW] = (
-        c * y[PX] - s * y[PY],
-        c * y[PY] + s * y[PX],
-        c * y[PZ] + s * y[PW],
-        c * y[PW] - s * y[PZ],
+    y[at.PX], y[at.PY], y[at.PZ], y[at.PW] = (
+        c * y[at.PX] - s * y[at.PY],
+        c * y[at.PY] + s * y[at.PX],
+        c * y[at.PZ] + s * y[at.PW],
+        c * y[at.PW] - s * y[at.PZ],
     )
     angles[0] += n * phi / 2
     angles[1] += n * phi / 2
-    y[CHI] += n * psi
-    y[TIME] += n * (second[0] - first[0])
+    y[at.CHI] += n * psi
+    y[at.TIME] += n * (second[0] - first[0])
     return True

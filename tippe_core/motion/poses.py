@@ -4,8 +4,9 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .dynamics import BALL, NO_ONE, OPEN, SLIP, Turning, arrange
-from .records import CHI, HEAT, PW, PX, PY, PZ, TIME, Record, X, Y
+from . import at
+from .dynamics import Turning, arrange
+from .records import BALL, NO_ONE, OPEN, SLIP, Record
 
 PULLS = 2e-10  # (Mg): smaller values are rounding
 AIR, SLIPPING, ROLLING = range(3)
@@ -19,7 +20,7 @@ def turned(y: Array, angles: Array) -> None:
     p_w + i p_z = cos(theta/2) exp i(phi + psi - chi)/2,  p_x + i p_y = sin(theta/2) exp i(phi - psi + chi)/2
     """
     for n in range(2):
-        up, along = (y[PZ], y[PW]) if n == 0 else (y[PY], y[PX])
+        up, along = (y[at.PZ], y[at.PW]) if n == 0 else (y[at.PY], y[at.PX])
         if up != 0.0 or along != 0.0:
             by = np.arctan2(up, along) - angles[n]
             angles[n] += by - 2 * np.pi * np.round(by / (2 * np.pi))
@@ -28,7 +29,7 @@ def turned(y: Array, angles: Array) -> None:
 @compiled
 def tilt(y: Array) -> float:
     """theta"""
-    return 2 * np.arctan2(np.hypot(y[PX], y[PY]), np.hypot(y[PZ], y[PW]))
+    return 2 * np.arctan2(np.hypot(y[at.PX], y[at.PY]), np.hypot(y[at.PZ], y[at.PW]))
 
 
 @compiled
@@ -43,15 +44,15 @@ def record(
 ) -> None:
     """The SAMPLE at y, after forces()."""
     e, w, _ = turning
-    phi, psi = angles[0] + angles[1], angles[0] - angles[1] + y[CHI]
+    phi, psi = angles[0] + angles[1], angles[0] - angles[1] + y[at.CHI]
     theta = tilt(y)
-    out.t, out.theta, out.phi, out.psi, out.heat = t, theta, phi, psi, y[HEAT]
+    out.t, out.theta, out.phi, out.psi, out.heat = t, theta, phi, psi, y[at.HEAT]
     # q = p Rz(chi)
-    size = 1 / np.sqrt(y[PX] ** 2 + y[PY] ** 2 + y[PZ] ** 2 + y[PW] ** 2)
-    c, s = np.cos(y[CHI] / 2) * size, np.sin(y[CHI] / 2) * size
-    turn(y[PX], y[PY], c, s, out.quaternion)
-    turn(y[PZ], y[PW], c, s, out.quaternion[2:])
-    out.com[0], out.com[1], out.com[2] = y[X], y[Y], C.G[3]
+    size = 1 / np.sqrt(y[at.PX] ** 2 + y[at.PY] ** 2 + y[at.PZ] ** 2 + y[at.PW] ** 2)
+    c, s = np.cos(y[at.CHI] / 2) * size, np.sin(y[at.CHI] / 2) * size
+    turn(y[at.PX], y[at.PY], c, s, out.quaternion)
+    turn(y[at.PZ], y[at.PW], c, s, out.quaternion[2:])
+    out.com[0], out.com[1], out.com[2] = y[at.X], y[at.Y], C.G[3]
     # from axes fixed in space to 1' and z cross 1'
     c, s, cos_theta, sin_theta = np.cos(phi), np.sin(phi), np.cos(theta), np.sin(theta)
     turn(w[0], w[1], c, s, out.omega)
@@ -74,7 +75,7 @@ def record(
                 rho_x, rho_y = rho_x + share * C.rho[i, 0], rho_y + share * C.rho[i, 1]
                 if not rolls:
                     ux, uy = ux + share * C.u[i, 0], uy + share * C.u[i, 1]
-    out.contact[0], out.contact[1] = y[X] + rho_x, y[Y] + rho_y
+    out.contact[0], out.contact[1] = y[at.X] + rho_x, y[at.Y] + rho_y
     turn(ux, uy, c, s, out.slip)
     turn(Fx, Fy, c, s, out.force)
     out.force[2] = 0.0 if -PULLS < N < 0.0 else N
@@ -84,4 +85,4 @@ def record(
 def sample_at(W: Record, P: Record, ball: int, stem: int, out: Record) -> None:
     """The SAMPLE at W.y in these modes, with the forces in W.contacts."""
     turning = arrange(W.y, NO_ONE, ball, stem, P, W.contacts)
-    record(W.y, W.y[TIME], turning, W.angles, ball, stem, P, W.contacts, out)
+    record(W.y, W.y[at.TIME], turning, W.angles, ball, stem, P, W.contacts, out)

@@ -8,10 +8,12 @@ from ..errors import TopError, finite, numbers
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
-from .contacts import STARTS, settle
-from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, turning
+from . import at
+from .contacts import settle
+from .dynamics import arrange, turning
 from .friction import Friction
-from .records import MOTION, PROBLEM, VZ, Record, Z, new
+from .kinds import STARTS
+from .records import BALL, MOTION, NO_ONE, OPEN, PROBLEM, SLIP, STEM, Record, new
 from .standing import leaned
 
 SHARE = 0.1  # the tolerance of one step, in units of rtol
@@ -25,12 +27,13 @@ def checked_rtol(rtol: float) -> float:
     return rtol
 
 
-def checked_loss(name: str, loss: float) -> float:
-    """The coefficient of a loss as a float, or a TopError if it is negative."""
-    loss = finite(name, loss)
-    if loss < 0:
-        raise TopError(name, loss, f"{name} >= 0")
-    return loss
+def checked_losses(rolling_resistance: float, air_drag: float) -> tuple[float, float]:
+    """The coefficients of the losses as floats, or a TopError if one is negative."""
+    given = {"rolling_resistance": rolling_resistance, "air_drag": air_drag}
+    for name, loss in given.items():
+        if finite(name, loss) < 0:
+            raise TopError(name, loss, f"{name} >= 0")
+    return float(rolling_resistance), float(air_drag)
 
 
 def flies(landing: str) -> bool:
@@ -141,7 +144,7 @@ def gap(P: Record, c: Number, s: Number) -> Number:
 def on_table(W: Record, P: Record, i: int) -> None:
     """Sets v_z and z in W.y so that contact i is on the table."""
     arrange(W.y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
-    W.y[VZ], W.y[Z] = W.contacts.G[2], W.contacts.G[3]
+    W.y[at.VZ], W.y[at.Z] = W.contacts.G[2], W.contacts.G[3]
 
 
 def start(W: Record, P: Record, theta: float) -> tuple[int, bool]:

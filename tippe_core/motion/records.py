@@ -5,6 +5,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from .kinds import HALTS
+
 Record: TypeAlias = Any  # an np.record of one of these types
 
 
@@ -24,17 +26,16 @@ def new(kind: Any) -> Record:
     return np.zeros(1, kind)[0]
 
 
-# The components of a state y, dynamics.py; of z in the variables for a slip that decays, the logarithm of its speed and
-# its direction.
-PX, PY, PZ, PW, CHI, LX, LY, LZ, VX, VY, X, Y, TIME, HEAT, VZ, Z = range(16)
-LOG_U, BETA = VX, VY
+OPEN, SLIP, STICK = range(3)  # modes of a contact
+BALL, STEM = range(2)  # the contacts
+NO_ONE = -1  # the slowest contact if none slips by Coulomb's law
 
 # A row of a Trajectory, by the names of its fields.
 SAMPLE = kind(t=float, theta=float, phi=float, psi=float, quaternion=(4,), contact=(2,), com=(3,), omega=(3,),
               slip=(2,), force=(3,), velocity=(3,), heat=float, regime="i8")  # fmt: skip
 
 # A law of friction, friction.Law.
-LAW = kind(kind="i8", mu=float, mu_s=float, width=float, patch="?")
+LAW = kind(kind="i8", mu=float, mu_s=float, width=float, radius=float)
 
 # The constants of one motion. k = 1/I3 - 1/I1; b, h, q: of the stem's edge, if stem is 1; rim: cos(theta) where the
 # ball's surface ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.
@@ -69,6 +70,6 @@ LOG = kind(t=float, name="i8", supports="i8")
 # the log and of steps; whether a stretch begins, whether the rates at y are in step.K; the slowest contact with its
 # log|u| and beta, and whether beta is kept steady; whether the next step is to be implicit, and whether the last one
 # was.
-MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(7, 2), samples="i8", events="i8",
-              logged="i8", steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8", stiff="i8",
-              implicit="i8", step=STEP, contacts=CONTACTS, summary=SUMMARY)  # fmt: skip
+MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(HALTS, 2), samples="i8",
+              events="i8", logged="i8", steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8",
+              stiff="i8", implicit="i8", step=STEP, contacts=CONTACTS, summary=SUMMARY)  # fmt: skip

@@ -5,43 +5,16 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .contacts import (
-    HALTS,
-    LEAVES,
-    LOG_STILL,
-    NONE,
-    NUDGE,
-    SLIPS,
-    Event,
-    first_negative,
-    guards,
-    known,
-    margin,
-    may_stick,
-)
-from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, arrange, forces, rates
+from . import at, contacts, stepper
+from .dynamics import arrange, forces, rates
 from .events import first_event, happens
 from .friction import is_point
+from .impact import halted
 from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
-from .impulses import halted
+from .kinds import HALTS, LEAVES, NONE, SLIPS, Event
 from .poses import record, turned
-from .records import BETA, HEAT, LOG_U, LX, LY, LZ, PW, PX, PY, PZ, TIME, VX, VY, VZ, Record
-from .stepper import (
-    ORDER,
-    STAGES,
-    A,
-    B,
-    at_end,
-    at_share,
-    densely,
-    error,
-    factor,
-    stage,
-    stage_rates,
-    steady_direction,
-    when,
-    within,
-)
+from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
+from .stepper import STAGES, within
 from .summary import summarize, watch_tilt
 
 # Why else follow() or run() returns: the times are over; more steps are needed; Coulomb friction makes the ball roll;
@@ -85,15 +58,15 @@ def follow(W: Record, P: Record, log: Array, times: Array, rows: Array, end: flo
         W.h = FIRST
         arrange(y, NO_ONE, OPEN, OPEN, P, C)
         W.floor[0], W.floor[1] = min(C.height[0], 0.0), min(C.height[1], 0.0)
-        guards(y, NO_ONE, ball, stem, W.floor, P, S, C, W.guards)
-        event = first_negative(W.guards)
+        contacts.guards(y, NO_ONE, ball, stem, W.floor, P, S, C, W.guards)
+        event = contacts.first_negative(W.guards)
         if event[0] != NONE:
             return event
         k = W.samples
-        while k < len(times) and times[k] <= y[TIME]:
+        while k < len(times) and times[k] <= y[at.TIME]:
             sample(W, P, y, NO_ONE, times[k], rows)
             k = W.samples
-    while y[TIME] < end:
+    while y[at.TIME] < end:
         if W.steps >= limit:
             return MORE, BALL
         W.steps += 1
@@ -111,27 +84,27 @@ def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: fl
     if W.rated:  # the last stage of the previous step
         S.K[0, :] = S.K[STAGES]
     scales(W, P, slowest)
-    timed = not P.law.patch and slowest == NO_ONE
-    h, near = accept(W, P, slowest, end - y[TIME] if timed else np.inf)
+    timed = P.law.radius == 0.0 and slowest == NO_ONE
+    h, near = accept(W, P, slowest, end - y[at.TIME] if timed else np.inf)
     if timed:  # free of rounding errors of the integration
-        S.new[TIME] = end if h == end - y[TIME] else y[TIME] + h
+        S.new[at.TIME] = end if h == end - y[at.TIME] else y[at.TIME] + h
     event, share, k, N = (NONE, BALL), 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
-    dense = near < NEAR or S.new[TIME] > end or (k < len(times) and times[k] <= S.new[TIME])
+    dense = near < NEAR or S.new[at.TIME] > end or (k < len(times) and times[k] <= S.new[at.TIME])
     if dense:
-        densely(W, P, slowest, h)
+        stepper.densely(W, P, slowest, h)
     if near < NEAR:
         event, share = first_event(W, P, slowest)
-    over = S.new[TIME] > end and (share == 1.0 or within(S, share, TIME) > end)
+    over = S.new[at.TIME] > end and (share == 1.0 or within(S, share, at.TIME) > end)
     if over:
-        event, share = (NONE, BALL), when(S, end)
-    t = S.new[TIME] if share == 1.0 else (y[TIME] + share * h if timed else within(S, share, TIME))
+        event, share = (NONE, BALL), stepper.when(S, end)
+    t = S.new[at.TIME] if share == 1.0 else (y[at.TIME] + share * h if timed else within(S, share, at.TIME))
     t = end if over else min(t, end)
     while k < len(times) and times[k] <= t:
-        x = (times[k] - y[TIME]) / h if timed else when(S, times[k])
-        at_share(S, x, S.at)
+        x = (times[k] - y[at.TIME]) / h if timed else stepper.when(S, times[k])
+        stepper.at_share(S, x, S.at)
         sample(W, P, S.at, slowest, times[k], rows)
         k = W.samples
-    at_end(S, share)
+    stepper.at_end(S, share)
     watch_tilt(W, P, log, slowest, h, share, dense)
     before = moved(W, P, slowest, t)
     if event[0] == NONE and share == 1.0:
@@ -160,16 +133,16 @@ def change_variables(W: Record, P: Record) -> int:
             if W.modes[i] == SLIP and speed < least:
                 slowest, least = i, speed
         if slowest == W.slowest and slowest != NO_ONE:
-            S.z[LOG_U], S.z[BETA] = W.polar[0], W.polar[1]
+            S.z[at.LOG_U], S.z[at.BETA] = W.polar[0], W.polar[1]
         elif slowest != NO_ONE:
-            S.z[LOG_U], S.z[BETA] = np.log(least), np.arctan2(C.u[slowest, 1], C.u[slowest, 0])
+            S.z[at.LOG_U], S.z[at.BETA] = np.log(least), np.arctan2(C.u[slowest, 1], C.u[slowest, 0])
     W.steady = 0
     if slowest != NO_ONE:
         W.rated = 0
     if slowest != NO_ONE and least < P.tolerance ** (2 / 3):
         S.at[:] = S.z
-        beta, attracts, grows = steady_direction(W, P, slowest)
-        W.steady = attracts > STIFF * abs(grows) and abs(beta - S.z[BETA]) < SLIPS_LITTLE
+        beta, attracts, grows = stepper.steady_direction(W, P, slowest)
+        W.steady = attracts > STIFF * abs(grows) and abs(beta - S.z[at.BETA]) < SLIPS_LITTLE
     return slowest
 
 
@@ -177,40 +150,41 @@ def change_variables(W: Record, P: Record) -> int:
 def scales(W: Record, P: Record, slowest: int) -> None:
     """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy."""
     y, S, tolerance = W.y, W.step, max(P.tolerance, TOLERANCE if W.stiff else 0.0)
-    L = max(P.I1, np.sqrt(y[LX] * y[LX] + y[LY] * y[LY] + y[LZ] * y[LZ]))
-    v = max(1.0, np.sqrt(y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ]))
+    L = max(P.I1, np.sqrt(y[at.LX] * y[at.LX] + y[at.LY] * y[at.LY] + y[at.LZ] * y[at.LZ]))
+    v = max(1.0, np.sqrt(y[at.VX] * y[at.VX] + y[at.VY] * y[at.VY] + y[at.VZ] * y[at.VZ]))
     S.scale[:] = tolerance
-    for i in (LX, LY, LZ):
+    for i in (at.LX, at.LY, at.LZ):
         S.scale[i] = tolerance * L
-    S.scale[VX] = S.scale[VY] = S.scale[VZ] = tolerance * v
-    S.scale[HEAT] = tolerance * max(1.0, L * L / P.I1)
+    S.scale[at.VX] = S.scale[at.VY] = S.scale[at.VZ] = tolerance * v
+    S.scale[at.HEAT] = tolerance * max(1.0, L * L / P.I1)
     if slowest != NO_ONE:
-        S.scale[LOG_U] = S.scale[BETA] = max(min(0.1 * tolerance / np.exp(S.z[LOG_U]), SLIPS_LITTLE), tolerance)
+        of_slip = max(min(0.1 * tolerance / np.exp(S.z[at.LOG_U]), SLIPS_LITTLE), tolerance)
+        S.scale[at.LOG_U] = S.scale[at.BETA] = of_slip
 
 
 @compiled
 def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, float]:
     """Finds a step from step.z to step.new within the tolerance, at most `most` long: its length, and the least
     margin()."""
-    S, order = W.step, IMPLICIT_ORDER if W.stiff else ORDER
+    S, order = W.step, IMPLICIT_ORDER if W.stiff else stepper.ORDER
     if W.stiff:
         differentiate(W, P)
     while True:
         h = min(W.h, most)
         found, near = implicit_step(W, P, h) if W.stiff else attempt(W, P, slowest, h)
-        if slowest != NO_ONE and S.new[LOG_U] - S.z[LOG_U] > LEAP:
+        if slowest != NO_ONE and S.new[at.LOG_U] - S.z[at.LOG_U] > LEAP:
             found = np.inf
-        factors = factor(found, order)
+        factors = stepper.factor(found, order)
         if found < 1.0 or h <= SMALLEST:
             break
         W.h = h * factors
     W.h = max(h * factors, W.h if h < W.h else 0.0, SMALLEST)
     W.implicit = W.stiff
-    W.stiff = P.law.patch and is_stiff(W, P, h)
+    W.stiff = P.law.radius > 0.0 and is_stiff(W, P, h)
     if W.stiff and not W.implicit:
-        W.h *= S.K[STAGES, TIME]
+        W.h *= S.K[STAGES, at.TIME]
     elif W.implicit and not W.stiff:
-        W.h /= S.K[STAGES, TIME]
+        W.h /= S.K[STAGES, at.TIME]
     return h, near
 
 
@@ -222,11 +196,11 @@ def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]
         if s == 0:
             S.at[:] = S.z
         else:
-            stage(S.z, S.K, A[s] if s < STAGES else B, s, h, S.at)
-        minor = stage_rates(W, P, slowest, s)
-        near = min(near, margin(S.at, minor, ball, stem, P, C))
+            stepper.stage(S.z, S.K, stepper.A[s] if s < STAGES else stepper.B, s, h, S.at)
+        minor = stepper.stage_rates(W, P, slowest, s)
+        near = min(near, contacts.margin(S.at, minor, ball, stem, P, C))
     S.new[:], W.rated = S.at, 1
-    return error(S.K, S.scale, h), near
+    return stepper.error(S.K, S.scale, h), near
 
 
 @compiled
@@ -235,21 +209,21 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     slowest contact."""
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
-    before = np.exp(S.z[LOG_U]) if slowest != NO_ONE else np.inf
-    if P.law.patch:
+    before = np.exp(S.z[at.LOG_U]) if slowest != NO_ONE else np.inf
+    if P.law.radius > 0.0:
         _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
         before = np.inf
         for i in range(1 + P.stem):
             if W.modes[i] == SLIP:
-                before = min(before, np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.width * w[2]))
-    size = 1 / np.sqrt(S.at[PX] ** 2 + S.at[PY] ** 2 + S.at[PZ] ** 2 + S.at[PW] ** 2)
+                before = min(before, np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2]))
+    size = 1 / np.sqrt(S.at[at.PX] ** 2 + S.at[at.PY] ** 2 + S.at[at.PZ] ** 2 + S.at[at.PW] ** 2)
     for i in range(4):
         S.at[i] *= size
     arrange(S.at, slowest, ball, stem, P, C)
-    W.slowest, W.polar[0], W.polar[1] = slowest, S.at[LOG_U], S.at[BETA]
+    W.slowest, W.polar[0], W.polar[1] = slowest, S.at[at.LOG_U], S.at[at.BETA]
     y[:] = S.at
-    y[TIME] = t
-    known(y, C)
+    y[at.TIME] = t
+    contacts.known(y, C)
     turned(y, W.angles)
     return before
 
@@ -259,24 +233,24 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
     """(HALTS, i) if friction stops the slowest contact i, (SLIPS, i) if its slip goes through 0, or NONE."""
     y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
     if slowest != NO_ONE:
-        speed = W.step.new[LOG_U]
-        if speed < min(np.log(before), LOG_STILL):  # near the limit of friction it may still stick
-            if may_stick(y, ball, stem, slowest, P, C):
+        speed = W.step.new[at.LOG_U]
+        if speed < min(np.log(before), contacts.LOG_STILL):  # near the limit of friction it may still stick
+            if contacts.may_stick(y, ball, stem, slowest, P, C):
                 halted(y, slowest, P, C)
                 return HALTS, slowest
-            if speed < 2 * LOG_STILL:
+            if speed < 2 * contacts.LOG_STILL:
                 return SLIPS, slowest
-    elif P.law.patch:
+    elif P.law.radius > 0.0:
         _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
         for i in range(1 + P.stem):
-            speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.width * w[2])
+            speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2])
             if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
-                holds = may_stick(y, ball, stem, i, P, C)
-                if holds or speed < NUDGE / 4:
+                holds = contacts.may_stick(y, ball, stem, i, P, C)
+                if holds or speed < contacts.NUDGE / 4:
                     rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
-                    left = speed * (y[TIME] - W.step.z[TIME]) / (before - speed)  # time until it vanishes
+                    left = speed * (y[at.TIME] - W.step.z[at.TIME]) / (before - speed)  # time until it vanishes
                     for k in range(16):
-                        y[k] += left * W.step.K[0, k] / W.step.K[0, TIME]
+                        y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
                     halted(y, i, P, C)
                     return (HALTS if holds else SLIPS), i
     return NONE, BALL

@@ -7,7 +7,7 @@ in contacts.py, impact.py and standing.py. This file checks the arguments and bu
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import cast
+from typing import TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,50 +16,22 @@ from ..errors import TopError, finite, single
 from ..paper.constants import State, versines
 from ..paper.top import Top
 from ..types import Array, Number
-from .contacts import RIM, SLACK, SLIPS, TOUCH, TOUCHES, Event
-from .dynamics import BALL, OPEN, SLIP, STEM, carried
-from .events import (
-    EVENTS,
-    LIFTS_OFF,
-    NOTED,
-    NOTES,
-    PAINLEVE,
-    PASSES_90,
-    STANDS_UPRIGHT,
-    SUPPORTS,
-    TOO_MANY_TURNS,
-    happens,
-    logged,
-    noted,
-    noted_values,
-)
+from . import at, events, preparing
+from .contacts import SLACK, TOUCH, tilt_guards
+from .dynamics import carried
 from .friction import LAWS, Friction
+from .kinds import RIM, SLIPS, TOUCHES, Event
 from .poses import REGIMES, ROLLING, sample_at
-from .preparing import (
-    beginning,
-    check_balance,
-    checked_edge,
-    checked_loss,
-    checked_profile,
-    checked_rtol,
-    flies,
-    gap,
-    motion,
-    on_table,
-    problem,
-    start,
-    y_of,
-)
-from .records import HEAT, LOG, SAMPLE, TIME, Record, X, Y, new
+from .records import BALL, LOG, OPEN, SAMPLE, SLIP, STEM, Record, new
 from .rolling import Rolling
 from .run import MORE, ROLLS, run
-from .sinking import ANOTHER_TOUCHES, sunk
 from .smooth import first_below, zeros
 from .summary import begin
-from .trajectory import Trajectory, checked_times
+from .trajectory import ANOTHER_TOUCHES, Trajectory, checked_times, sunk
 
 MOST_EVENTS = 10_000
 MOST_STEPS = 4_000_000  # about half a minute
+Progress: TypeAlias = Callable[[float], object] | None
 EACH = 32  # steps between two calls of progress
 
 
@@ -115,12 +87,11 @@ def slide(
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
         raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
-    check_balance(top, friction)
-    rtol = checked_rtol(rtol)
-    losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
-    P = problem(top, friction, checked_edge(edge), losses, rtol)
-    body = None if profile is None else checked_profile(profile)
-    moved = _Run(top, friction, P, flies(landing), progress)(state, t)
+    preparing.check_balance(top, friction)
+    losses = preparing.checked_losses(rolling_resistance, air_drag)
+    P = preparing.problem(top, friction, preparing.checked_edge(edge), losses, preparing.checked_rtol(rtol))
+    body = None if profile is None else preparing.checked_profile(profile)
+    moved = _moved(top, state, friction, P, t, preparing.flies(landing), progress)
     first = len(moved) if body is None else sunk(moved, body)
     return moved if first == len(moved) else moved.until(max(first, 1), float(moved.t[first]), ANOTHER_TOUCHES)
 
@@ -158,138 +129,130 @@ def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / abs(nudge))
 
 
-class _Run:
-    """One motion of slide()."""
+def _moved(
+    top: Top, state: State, friction: Friction, P: Record, times: Array, flies: bool, progress: Progress
+) -> Trajectory:
+    """slide() without a profile, after its arguments have been checked."""
+    W = preparing.motion(*preparing.beginning(state, times[0], P))
+    log, rows = np.zeros(2 * MOST_EVENTS, LOG), np.zeros(len(times), SAMPLE)
+    stands_on, goes_on = preparing.start(W, P, state.theta)
+    begin(W, P, log, np.inf)
+    first = carried(*W.modes) if goes_on else 1 + stands_on
+    if not goes_on:
+        events.logged(W, log, events.PAINLEVE, OPEN, OPEN)
+    elif first == 0:
+        events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
+    if goes_on and (first or flies):
+        _follow(top, W, P, log, times, rows, flies, progress)
+    notes = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] == events.NOTES]
+    entries = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] != events.NOTES]
+    if not W.samples:
+        _alone(W, P, stands_on, entries[0].name, rows[0])
+    rows = rows[: max(W.samples, 1)]
+    finite = [np.isfinite(rows[name]).reshape(len(rows), -1).all(axis=1) for name in SAMPLE.names]
+    followed = np.append(np.all(finite, axis=0), np.isfinite(W.y).all())
+    if not followed.all():
+        raise TopError("friction", friction, "weaker friction for this top",
+                       "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",
+                       t=float(times[max(int(followed.argmin()) - 1, 0)]), unit="")  # fmt: skip
+    supports = [(float(times[0]), events.SUPPORTS[first])]
+    for entry in entries:
+        if entry.name != events.PAINLEVE:
+            _support(supports, float(entry.t), events.SUPPORTS[entry.supports])
+    parts = {name: rows[name].copy() for name in SAMPLE.names} | {"regime": REGIMES[rows["regime"]]}
+    said, noted = (tuple((float(entry.t), events.EVENTS[entry.name][0]) for entry in some) for some in (entries, notes))
+    return Trajectory(top=top, events=said, notes=noted, supports=tuple(supports), **parts)
 
-    def __init__(
-        self, top: Top, friction: Friction, P: Record, flies: bool, progress: Callable[[float], object] | None
-    ) -> None:
-        self.top, self.friction, self.P, self.flies, self.progress = top, friction, P, flies, progress
 
-    def __call__(self, state: State, times: Array) -> Trajectory:
-        P = self.P
-        y, angles = beginning(state, times[0], P)
-        W = self.motion = motion(y, angles)
-        self.log = np.zeros(2 * MOST_EVENTS, LOG)
-        self.times, self.rows = times, np.zeros(len(times), SAMPLE)
-        stands_on, goes_on = start(W, P, state.theta)
-        begin(W, P, self.log, np.inf)
-        first = carried(*W.modes) if goes_on else 1 + stands_on
-        supports = [(float(times[0]), SUPPORTS[first])]
-        if not goes_on:
-            logged(W, self.log, PAINLEVE, OPEN, OPEN)
-        elif first == 0:
-            logged(W, self.log, LIFTS_OFF, OPEN, OPEN)
-        if goes_on and (first or self.flies):
-            self._follow()
-        count = int(W.samples)
-        if not count:
-            self._alone(stands_on)
-            count = 1
-        rows = self.rows[:count]
-        finite = [np.isfinite(rows[name]).reshape(count, -1).all(axis=1) for name in SAMPLE.names]
-        followed = np.append(np.all(finite, axis=0), np.isfinite(W.y).all())
-        if not followed.all():
-            raise TopError("friction", self.friction, "weaker friction for this top",
-                           "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",
-                           t=float(times[max(int(followed.argmin()) - 1, 0)]), unit="")  # fmt: skip
-        log = [(float(entry.t), entry.name, SUPPORTS[entry.supports]) for entry in self.log[: W.logged]]
-        events = tuple((t, EVENTS[name][0]) for t, name, _ in log if EVENTS[name][1] != NOTES)
-        for t, name, what in log:
-            if name != PAINLEVE and EVENTS[name][1] != NOTES:
-                _support(supports, t, what)
-        parts = {name: rows[name].copy() for name in SAMPLE.names} | {"regime": REGIMES[rows["regime"]]}
-        time_90 = next((t for t, name, _ in log if name == PASSES_90), np.nan)
-        return Trajectory(top=self.top, events=events, supports=tuple(supports), time_90=time_90, **parts)
+def _follow(
+    top: Top, W: Record, P: Record, log: Array, times: Array, rows: Array, flies: bool, progress: Progress
+) -> None:
+    """Computes the rows at the times; progress is told which fraction of the time is done."""
+    begins, ends, status = times[0], times[-1], MORE
+    while status in (MORE, ROLLS):
+        status = run(W, P, log, times, rows, ends, flies, P.delta == P.drag == 0.0, EACH if progress else MOST_STEPS)
+        if progress and status in (MORE, ROLLS):
+            progress(float(min(1.0, (W.y[at.TIME] - begins) / (ends - begins))) if ends > begins else 1.0)
+        if status == ROLLS and _roll(top, W, P, log, times, rows, flies):
+            return
+        if status == MORE and W.steps >= MOST_STEPS:
+            events.logged(W, log, events.TOO_MANY_TURNS, *W.modes)
+            return
 
-    def _follow(self) -> None:
-        W, P, times = self.motion, self.P, self.times
-        exact = P.delta == P.drag == 0.0
-        each = EACH if self.progress else MOST_STEPS
-        while True:
-            status = run(W, P, self.log, times, self.rows, times[-1], self.flies, exact, each)
-            if status == ROLLS:
-                self._tell()
-                if self._roll():
-                    return
-                continue
-            if status != MORE:
-                return
-            self._tell()
-            if W.steps >= MOST_STEPS:
-                logged(W, self.log, TOO_MANY_TURNS, *W.modes)
-                return
 
-    def _tell(self) -> None:
-        """Tells progress which fraction of the time is done."""
-        if self.progress:
-            begins, ends = self.times[0], self.times[-1]
-            self.progress(float(min(1.0, (self.motion.y[TIME] - begins) / (ends - begins))) if ends > begins else 1.0)
+def _alone(W: Record, P: Record, stands_on: int, event: int, row: Record) -> None:
+    """The row of a single instant, for an event that ends the motion at once."""
+    modes = [OPEN, OPEN]
+    if event != events.LIFTS_OFF:
+        modes[stands_on] = SLIP
+    W.contacts.F[:] = 0.0
+    W.contacts.F[stands_on, 2] = float(event == events.STANDS_UPRIGHT)
+    sample_at(W, P, modes[0], modes[1], row)
+    row.slip = 0.0
 
-    def _state(self, y: Array) -> State:
-        """The State at y, without the velocity of G."""
-        W, P = self.motion, self.P
-        here = new(SAMPLE)
-        sample_at(W, P, OPEN, OPEN, here)
-        theta, phi, psi, (w1, w2, w3) = here.theta, here.phi, here.psi, here.omega
-        if theta in (0.0, np.pi):
-            pole = np.cos(theta)  # 1' along omega, as it is just after the pole
-            lean = np.angle(pole * (w1 + 1j * pole * w2))
-            w1, w2, phi, psi = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean
-        return State(theta, w1, w2, w3, phi, psi, y[X], y[Y])
 
-    def _roll(self) -> bool:
-        """Rolls on the ball, by the exact motion of rolling.py, until an event; returns whether the motion ends with
-        it."""
-        W, P, y, times, top = self.motion, self.P, self.motion.y, self.times, self.top
-        state = self._state(y)
-        rolling, floor = Rolling(top, None, state), min(gap(P, np.cos(state.theta), np.sin(state.theta)), 0.0)
+# ---- rolling on the ball ----
 
-        def margin(t: Array) -> Array:
-            F = rolling(np.append(0.0, t)).force[1:].T
-            return P.law.mu_s * F[2] - np.hypot(F[0], F[1]) + SLACK
 
-        def room_left(t: Array) -> Array:
-            theta = rolling.theta(t)
-            return TOUCH - floor + gap(P, np.cos(theta), np.sin(theta))
+def _roll(top: Top, W: Record, P: Record, log: Array, times: Array, rows: Array, flies: bool) -> bool:
+    """Rolls on the ball, by the exact motion of rolling.py, until an event; returns whether the motion ends with it."""
+    y, done = W.y, int(W.samples)
+    rolling = Rolling(top, None, _state(W, P))
+    ends, event = _ends(rolling, P)
+    last = y[at.TIME] + ends
+    for t, name in _noted(rolling, min(last, times[-1]) - y[at.TIME]):
+        events.noted(W, log, name, y[at.TIME] + t)
+    count = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, last)), done)
+    moved = rolling(np.array([y[at.TIME], *times[done:count]]))
+    for name in SAMPLE.names:
+        rows[name][done:count] = {"heat": y[at.HEAT], "regime": ROLLING}.get(name, getattr(moved, name)[1:])
+    W.samples = count
+    if count == len(times):
+        return True
+    one = rolling(np.array([0.0, ends]))
+    theta, turn = one.theta[1], np.exp(1j * one.phi[1])
+    v, m = versines(theta)
+    u = complex(one.velocity[1, 0], one.velocity[1, 1]) * turn
+    y[:] = preparing.y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
+                          complex(*one.com[1, :2]), last, y[at.HEAT])  # fmt: skip
+    W.angles[:] = 0.0, one.phi[1]
+    preparing.on_table(W, P, BALL)
+    return bool(events.happens(W, P, log, event, flies))
 
-        found: list[tuple[float, Event]] = [(first_below(margin, rolling.period), (SLIPS, BALL))]
-        if P.stem:
-            found.append((first_below(room_left, rolling.period), (TOUCHES, STEM)))
-        if P.rim > -2:
-            found.append((first_below(lambda t: np.cos(rolling.theta(t)) - P.rim, rolling.period), (RIM, BALL)))
-        ends, event = min(found)
-        done = int(W.samples)
-        last = y[TIME] + ends
-        for t, name in _noted(rolling, min(last, times[-1]) - y[TIME]):
-            noted(W, self.log, name, y[TIME] + t)
-        count = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, last)), done)
-        moved = rolling(np.array([y[TIME], *times[done:count]]))
-        for name in SAMPLE.names:
-            self.rows[name][done:count] = {"heat": y[HEAT], "regime": ROLLING}.get(name, getattr(moved, name)[1:])
-        W.samples = count
-        if count == len(times):
-            return True
-        one = rolling(np.array([0.0, ends]))
-        theta, turn = one.theta[1], np.exp(1j * one.phi[1])
-        v, m = versines(theta)
-        u = complex(one.velocity[1, 0], one.velocity[1, 1]) * turn
-        y[:] = y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
-                    complex(*one.com[1, :2]), last, y[HEAT])  # fmt: skip
-        W.angles[:] = 0.0, one.phi[1]
-        on_table(W, P, BALL)
-        return bool(happens(W, P, self.log, event, self.flies))
 
-    def _alone(self, stands_on: int) -> None:
-        """The row of a single instant, for an event that ends the motion at once."""
-        W, P = self.motion, self.P
-        event, modes = next(entry.name for entry in self.log if EVENTS[entry.name][1] != NOTES), [OPEN, OPEN]
-        if event != LIFTS_OFF:
-            modes[stands_on] = SLIP
-        W.contacts.F[:] = 0.0
-        W.contacts.F[stands_on, 2] = float(event == STANDS_UPRIGHT)
-        sample_at(W, P, modes[0], modes[1], self.rows[0])
-        self.rows[0].slip = 0.0
+def _state(W: Record, P: Record) -> State:
+    """The State at W.y, without the velocity of G."""
+    here = new(SAMPLE)
+    sample_at(W, P, OPEN, OPEN, here)
+    theta, phi, psi, (w1, w2, w3) = here.theta, here.phi, here.psi, here.omega
+    if theta in (0.0, np.pi):
+        pole = np.cos(theta)  # 1' along omega, as it is just after the pole
+        lean = np.angle(pole * (w1 + 1j * pole * w2))
+        w1, w2, phi, psi = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean
+    return State(theta, w1, w2, w3, phi, psi, *here.com[:2])
+
+
+def _ends(rolling: Rolling, P: Record) -> tuple[float, Event]:
+    """When the ball ceases to roll alone, inf if never, and by which event."""
+    theta = rolling.start.theta
+    floor = min(preparing.gap(P, np.cos(theta), np.sin(theta)), 0.0)
+
+    def margin(t: Array) -> Array:
+        F = rolling(np.append(0.0, t)).force[1:].T
+        return P.law.mu_s * F[2] - np.hypot(F[0], F[1]) + SLACK
+
+    def room_left(t: Array) -> Array:
+        theta = rolling.theta(t)
+        return TOUCH - floor + preparing.gap(P, np.cos(theta), np.sin(theta))
+
+    found: list[tuple[float, Event]] = [(first_below(margin, rolling.period), (SLIPS, BALL))]
+    if P.stem:
+        found.append((first_below(room_left, rolling.period), (TOUCHES, STEM)))
+    for n, least in enumerate(tilt_guards(np.cos(rolling.turning_points), P)):
+        if min(least) < 0:
+            tilts = partial(lambda t, n: tilt_guards(np.cos(rolling.theta(t)), P)[n], n=n)
+            found.append((first_below(tilts, rolling.period), (RIM + n, BALL)))
+    return min(found)
 
 
 def _noted(rolling: Rolling, ends: float) -> list[tuple[float, int]]:
@@ -298,10 +261,10 @@ def _noted(rolling: Rolling, ends: float) -> list[tuple[float, int]]:
     def value(t: Array, n: int) -> Array:
         moved = rolling(np.append(0.0, t))
         up, up_rate = np.cos(moved.theta), -np.sin(moved.theta) * moved.omega[:, 0]
-        return cast(Array, noted_values(up[1:], up_rate[1:])[n])
+        return cast(Array, events.noted_values(up[1:], up_rate[1:])[n])
 
     found, each = [], rolling.period
-    for n, name in enumerate(NOTED):
+    for n, name in enumerate(events.NOTED):
         for first in zeros(partial(value, n=n), min(each, ends)):
             found += [(float(t), int(name)) for t in np.arange(first, ends, each)[:MOST_EVENTS]]
     return sorted(found)

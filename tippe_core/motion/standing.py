@@ -22,8 +22,8 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array, Number, Rim, Vector
+from . import at
 from .dynamics import kinetic
-from .records import PW, PX, PY, PZ, VX, VY, Z
 
 STANDS, FLAT = 1e-3, 1e-6  # rad: tilts that count as upright, and as flat
 ROUNDING = 1e-13  # larger than sin(pi) in floats
@@ -43,7 +43,7 @@ def tipping_energy(top: Number, edge: Rim) -> float:
 @compiled
 def energy_above_rest(top: Number, edge: Rim, y: Array, L3: float) -> float:
     """The energy at y above that of rest on the flat end of the stem, in MgR."""
-    return kinetic(y, L3, top) + y[Z] - (top.a + edge[1] + edge[2])
+    return kinetic(y, L3, top) + y[at.Z] - (top.a + edge[1] + edge[2])
 
 
 @compiled
@@ -79,7 +79,7 @@ def leaned(y: Array, e: Vector, w: Vector) -> Array:
         return crossed(y, e)
     wx, wy = w[0], w[1]
     if np.hypot(wx, wy) <= ROUNDING * np.sqrt(wx * wx + wy * wy + w[2] * w[2]):
-        wx, wy = (-y[VY], y[VX]) if np.hypot(y[VX], y[VY]) > ROUNDING else (1.0, 0.0)
+        wx, wy = (-y[at.VY], y[at.VX]) if np.hypot(y[at.VX], y[at.VY]) > ROUNDING else (1.0, 0.0)
     moves = np.hypot(wx, wy)
     return turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
 
@@ -87,8 +87,8 @@ def leaned(y: Array, e: Vector, w: Vector) -> Array:
 @compiled
 def turned(y: Array, i: float, j: float, w: float) -> Array:
     """y rotated by the quaternion (i, j, 0, w)."""
-    px, py, pz, pw = y[PX], y[PY], y[PZ], y[PW]
+    px, py, pz, pw = y[at.PX], y[at.PY], y[at.PZ], y[at.PW]
     y = y.copy()
-    y[PX], y[PY] = w * px + i * pw + j * pz, w * py - i * pz + j * pw
-    y[PZ], y[PW] = w * pz + i * py - j * px, w * pw - i * px - j * py
+    y[at.PX], y[at.PY] = w * px + i * pw + j * pz, w * py - i * pz + j * pw
+    y[at.PZ], y[at.PW] = w * pz + i * py - j * px, w * pw - i * px - j * py
     return y

@@ -10,8 +10,9 @@ from scipy.integrate import DOP853
 from ..compiled import compiled, shared_with_kernels
 from ..paper.search import zero
 from ..types import Array
-from .dynamics import BALL, STEM, rates
-from .records import BETA, LOG_U, TIME, Record
+from . import at
+from .dynamics import rates
+from .records import BALL, STEM, Record
 
 A, B, E3, E5 = (np.ascontiguousarray(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
 A_DENSE, D = np.ascontiguousarray(DOP853.A_EXTRA), np.ascontiguousarray(DOP853.D)
@@ -64,20 +65,20 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
     """The steady beta near that of step.at, at which u' is parallel to u; the rates at which beta relaxes to it and at
     which log|u| grows."""
     S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
-    beta, out, near = S.at[BETA], S.K[15], 1e-4
+    beta, out, near = S.at[at.BETA], S.K[15], 1e-4
     for _ in range(3):
-        S.at[BETA] = beta + near
+        S.at[at.BETA] = beta + near
         rates(S.at, slowest, ball, stem, P, C, out)
-        beside = out[BETA]
-        S.at[BETA] = beta
+        beside = out[at.BETA]
+        S.at[at.BETA] = beta
         rates(S.at, slowest, ball, stem, P, C, out)
-        attracts = (out[BETA] - beside) / near
-        if attracts <= 0.0 or abs(out[BETA]) > attracts:
-            return S.at[BETA], 0.0, out[LOG_U]
-        beta += out[BETA] / attracts
-        if abs(out[BETA]) < 1e-12 * attracts:
+        attracts = (out[at.BETA] - beside) / near
+        if attracts <= 0.0 or abs(out[at.BETA]) > attracts:
+            return S.at[at.BETA], 0.0, out[at.LOG_U]
+        beta += out[at.BETA] / attracts
+        if abs(out[at.BETA]) < 1e-12 * attracts:
             break
-    return beta, attracts, out[LOG_U]
+    return beta, attracts, out[at.LOG_U]
 
 
 @compiled
@@ -85,10 +86,10 @@ def stage_rates(W: Record, P: Record, slowest: int, s: int) -> float:
     """Writes the rates at step.at into step.K[s]; where beta is kept steady, those at its steady value."""
     S = W.step
     if W.steady:
-        S.at[BETA] = steady_direction(W, P, slowest)[0]
+        S.at[at.BETA] = steady_direction(W, P, slowest)[0]
     minor = rates(S.at, slowest, W.modes[BALL], W.modes[STEM], P, W.contacts, S.K[s])
     if W.steady:
-        S.K[s, BETA] = 0.0
+        S.K[s, at.BETA] = 0.0
     return minor
 
 
@@ -140,7 +141,7 @@ def at_end(S: Record, share: float) -> None:
 @shared_with_kernels
 def lateness(x: float, S: Record, t: float) -> float:
     """How long after t the time at the fraction x of the step is."""
-    return within(S, x, TIME) - t
+    return within(S, x, at.TIME) - t
 
 
 @compiled

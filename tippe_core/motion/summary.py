@@ -5,25 +5,26 @@ import numpy as np
 from ..compiled import compiled, shared_with_kernels
 from ..paper.search import zero
 from ..types import Array
-from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
+from . import at
+from .dynamics import carried, kinetic, turning
 from .events import NOTED, PASSES_90, noted, noted_values, touched
 from .poses import tilt
-from .records import LZ, PW, PX, PY, PZ, TIME, Record, Z
+from .records import BALL, OPEN, STEM, STICK, Record
 from .stepper import at_end, at_share, densely, when, within
 
 
 @compiled
 def energy(W: Record, P: Record) -> float:
-    return kinetic(W.y, turning(W.y, P)[2], P) + W.y[Z]
+    return kinetic(W.y, turning(W.y, P)[2], P) + W.y[at.Z]
 
 
 @compiled
 def begin(W: Record, P: Record, log: Array, since: float) -> None:
     """Starts an empty summary; since: the time from which on the tilt and the supports count."""
     T, (e, _, L3) = W.summary, turning(W.y, P)
-    T.since, T.C_J, T.F_z_least, T.least, T.most = since, W.y[LZ] - P.a * L3, np.inf, np.inf, -np.inf
+    T.since, T.C_J, T.F_z_least, T.least, T.most = since, W.y[at.LZ] - P.a * L3, np.inf, np.inf, -np.inf
     if e[2] == 0.0:
-        noted(W, log, PASSES_90, W.y[TIME])
+        noted(W, log, PASSES_90, W.y[at.TIME])
     if W.modes[STEM] != OPEN:
         touched(W, log)
 
@@ -36,8 +37,8 @@ def summarize(W: Record, P: Record, N: float) -> None:
     if ball != OPEN or stem != OPEN:
         T.F_z_least = min(T.F_z_least, N)
     if not T.touched:
-        T.drift = max(T.drift, abs(y[LZ] - P.a * L3 - T.C_J))
-    if y[TIME] >= T.since:
+        T.drift = max(T.drift, abs(y[at.LZ] - P.a * L3 - T.C_J))
+    if y[at.TIME] >= T.since:
         T.seen |= 1 << carried(ball, stem)
         if ball not in (OPEN, STICK) or stem not in (OPEN, STICK) or (ball == OPEN and stem == OPEN):
             T.slips = 1
@@ -48,7 +49,7 @@ def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: 
     """Notes what is noted in the step of length h from step.z, up to the fraction share, from the polynomial of the
     step, and once that counts the range of theta. dense: whether the polynomial is computed already."""
     T, S = W.summary, W.step
-    e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[TIME], S.at[TIME]
+    e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[at.TIME], S.at[at.TIME]
     first, last, turns, counts = noted_values(e, rate), noted_values(e1, rate1), rate * rate1 < 0.0, ends >= T.since
     # whether e_z may pass through 0 twice
     changes = turns and e * rate < 0.0 and min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) * (ends - begins)
@@ -62,7 +63,7 @@ def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: 
         densely(W, P, slowest, h)
     turn = zero(up_rate_at, 0.0, share, (S, P)) if turns else share
     at_share(S, turn, S.at)
-    if counts and within(S, turn, TIME) >= T.since:
+    if counts and within(S, turn, at.TIME) >= T.since:
         widen(T, S.at)
     middle = noted_values(up(S.at), up_rate(S.at, P))
     if counts and begins < T.since:
@@ -70,16 +71,16 @@ def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: 
         widen(T, S.at)
     for n in range(len(NOTED)):
         if (first[n] > 0.0) != (middle[n] > 0.0):
-            noted(W, log, NOTED[n], within(S, zero(noted_at, 0.0, turn, (S, P, n)), TIME))
+            noted(W, log, NOTED[n], within(S, zero(noted_at, 0.0, turn, (S, P, n)), at.TIME))
         if (middle[n] > 0.0) != (last[n] > 0.0):
-            noted(W, log, NOTED[n], within(S, zero(noted_at, turn, share, (S, P, n)), TIME))
+            noted(W, log, NOTED[n], within(S, zero(noted_at, turn, share, (S, P, n)), at.TIME))
     at_end(S, share)
 
 
 @compiled
 def up(y: Array) -> float:
     """e_z = cos(theta), up to the norm of p."""
-    return y[PZ] * y[PZ] + y[PW] * y[PW] - y[PX] * y[PX] - y[PY] * y[PY]
+    return y[at.PZ] * y[at.PZ] + y[at.PW] * y[at.PW] - y[at.PX] * y[at.PX] - y[at.PY] * y[at.PY]
 
 
 @compiled

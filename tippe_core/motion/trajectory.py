@@ -13,6 +13,11 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools, Indices
 
+# SUNK (R): so far below the table a point of the body counts as in it; rounding and a coarse rtol sink less.
+SUNK = 1e-3
+ANGLES = 1024  # for which lowest() looks at a profile at once
+ANOTHER_TOUCHES = "another part touches"
+
 
 class Ledger(NamedTuple):
     """The parts of the energy, in MgR, (n,) each: see Trajectory.ledger."""
@@ -43,8 +48,9 @@ class Trajectory:
     sphere. heat (n,), in MgR: the energy lost since t[0] by friction, rolling resistance, air drag and impacts,
     integrated along with the motion; 0 by default. supports: a tuple of (time, name), where name, "ball", "stem",
     "both" or "none", is what carries the top from that time on. The first is at t[0], the others at each change,
-    located like events. By default the ball alone. time_90: when theta first passes 90 degrees in a run of slide(),
-    located within its steps, even if it passes twice between two of the times; nan if it never does.
+    located like events. By default the ball alone. notes: a tuple of (time, name) of what slide()
+    notes without an effect on the motion, located within its steps: "theta passes 90 degrees", "the stem touches
+    first". time_90: the time of the first "theta passes 90 degrees", nan if there is none.
 
     If the stem touches, contact, slip and force are those of the loaded contact. If both are loaded, the force is the
     sum, and contact and slip are means weighted by the normal forces. In the air slip and force are 0, and contact is
@@ -73,7 +79,7 @@ class Trajectory:
     velocity: Array = None  # type: ignore[assignment]  # never None after __post_init__, nor is heat
     heat: Array = None  # type: ignore[assignment]
     supports: tuple[tuple[float, str], ...] = ()
-    time_90: float = np.nan
+    notes: tuple[tuple[float, str], ...] = ()
 
     def __post_init__(self) -> None:
         if self.velocity is None:
@@ -102,13 +108,16 @@ class Trajectory:
         if not len(arrays["t"]):
             raise TopError("rows", rows, "rows with an instant of it", code="no-rows")
         last = np.inf if arrays["t"][-1] == self.t[-1] else arrays["t"][-1]
-        events, supports = (tuple(x for x in each if x[0] <= last) for each in (self.events, self.supports))
-        return replace(self, events=events, supports=supports, **arrays)
+        events, supports, notes = (tuple(x for x in each if x[0] <= last)
+                                   for each in (self.events, self.supports, self.notes))  # fmt: skip
+        return replace(self, events=events, supports=supports, notes=notes, **arrays)
 
     def until(self, count: int, time: float, event: str) -> Self:
         """The Trajectory of the first `count` instants, which then ends at this time with this event."""
-        events, supports = (tuple(x for x in each if x[0] < time) for each in (self.events, self.supports))
-        return replace(self[:count], events=(*events, (time, event)), supports=supports or self.supports[:1])
+        events, supports, notes = (tuple(x for x in each if x[0] < time)
+                                   for each in (self.events, self.supports, self.notes))  # fmt: skip
+        return replace(self[:count], events=(*events, (time, event)), supports=supports or self.supports[:1],
+                       notes=notes)  # fmt: skip
 
     def at(self, t: float) -> State:
         """The State at the time t, from t[0] to t[-1]: linear between the two nearest instants. x, y are those of G."""
@@ -119,6 +128,11 @@ class Trajectory:
         columns = np.column_stack([self.theta, self.omega, self.phi, self.psi, self.com[:, :2], self.velocity[:, :2]])
         theta, w1, w2, w3, phi, psi, *place = (float(np.interp(t, self.t, column)) for column in columns.T)
         return State(theta, w1, 0.0 if theta in (0.0, np.pi) else w2, w3, phi, psi, *place)
+
+    @property
+    def time_90(self) -> float:
+        """When theta first passes 90 degrees; nan if it never does."""
+        return next((t for t, name in self.notes if name == "theta passes 90 degrees"), np.nan)
 
     @cached_property
     def jellett(self) -> Array:
@@ -167,3 +181,26 @@ def checked_times(times: ArrayLike) -> Array:
         raise TopError("times", times, "a one-dimensional, not empty array of finite numbers, in (R/g)^1/2",
                        code="no-times")  # fmt: skip
     return t
+
+
+# ---- parts of a body other than its ball and the edge of its stem, which a motion does not know, below the table ----
+
+
+def lowest(profile: Array, theta: Array) -> Array:
+    """Height (n,) above O, in R, of the lowest point of the body at the tilts theta (n,), rad.
+
+    profile: (k, 2), radius and height above O in R, as from Shape.profile.
+    """
+    radius, z = profile.T[:, :, None]
+    parts = np.array_split(theta, len(theta) // ANGLES + 1)  # so that a long motion needs no more memory
+    return np.concatenate([(z * np.cos(part) - radius * np.sin(part)).min(axis=0) for part in parts])
+
+
+def sunk(trajectory: Trajectory, profile: Array) -> int:
+    """The first row at which some part of the body is below the table; the number of rows if there is none.
+
+    The contacts of slide() are the sphere and one edge, so another corner of the body may sink into the table, unless
+    slide() has the profile. profile as in lowest().
+    """
+    height = trajectory.com[:, 2] + trajectory.top.a * np.cos(trajectory.theta) + lowest(profile, trajectory.theta)
+    return int(np.argmax(np.append(height < -SUNK, True)))
