@@ -25,6 +25,7 @@ TENTH = (0.05, 0.15)  # degrees
 SAME, STEADY = 0.05, 0.5  # the share that is not called a change; degrees within which a tilt is called steady
 SMALL, NEAR = 0.005, 10.0  # the share of its energy that is not worth a word; degrees
 AROUND = np.pi / 2  # rad: what goes round turns by more
+BACK = 3  # turns of the tilt: it has come back twice
 
 
 class Event(NamedTuple):
@@ -169,8 +170,9 @@ class _Told:
         if self.quiet and i == 0:
             said.append(say(f"lab.{self.motion.table}.why"))
         if code == "grips":
-            steady = numbers["most"] - numbers["least"] < STEADY
-            said.append(say(f"lab.stages.grips.{'steady' if steady else 'why'}", **numbers))
+            steady = f"{numbers['least']:.1f}" == f"{numbers['most']:.1f}"
+            how = "steady" if steady else "why" if self._turns(phase) >= BACK else "passes"
+            said.append(say(f"lab.stages.grips.{how}", **numbers))
         elif code in ("stem-spins", "inverted-spins", "stem-balances", "inverted-balances"):
             said.append(self._why_it_stands(i, phase))
         elif code == "upright" and not self.quiet:
@@ -283,8 +285,11 @@ class _Told:
             return False
         if phase.kind == "lies" or (self.quiet and len(self.phases) > 1):
             return False
-        turns = np.count_nonzero(np.diff(np.sign(self.motion.trajectory.omega[here, 0])))
-        return bool(turns >= 3 or np.ptp(self.motion.tilt[here]) < STEADY)
+        return bool(self._turns(phase) >= BACK or np.ptp(self.motion.tilt[here]) < STEADY)
+
+    def _turns(self, phase: Phase) -> int:
+        """How often its tilt turns in a phase."""
+        return int(np.count_nonzero(np.diff(np.sign(self.motion.trajectory.omega[self._here(phase), 0]))))
 
     # ---- the numbers ----
 
@@ -297,7 +302,11 @@ class _Told:
         return slice(first, max(int(np.searchsorted(t, phase.end + 1e-9)), first + 1))
 
     def _at(self, t: float) -> Array:
-        return np.array([np.interp(t, self.curves[:, 0], column) for column in self.curves.T])
+        """A row of the curves at a time; tilt and spin from all samples."""
+        row = np.array([np.interp(t, self.curves[:, 0], column) for column in self.curves.T])
+        spin = self.turns * self.motion.trajectory.omega[:, 2]
+        row[[1, 5]] = [np.interp(t, self.motion.seconds, values) for values in (self.motion.tilt, spin)]
+        return row
 
     def _numbers(self, i: int, phase: Phase) -> dict[str, Number]:
         """All numbers that the words of a phase may quote."""
@@ -307,7 +316,7 @@ class _Told:
         upto = self.curves[(self.curves[:, 0] >= phase.start) & (self.curves[:, 0] <= ahead[0])]
         return {
             "time": phase.start, "seconds": float(motion.seconds[-1]), "long": phase.end - phase.start,
-            "from": float(first[2]), "end": float(last[2]), "least": float(tilt.min()), "most": float(tilt.max()),
+            "from": float(first[1]), "end": float(last[1]), "least": float(tilt.min()), "most": float(tilt.max()),
             "spin": abs(float(first[5])), "last": abs(float(last[5])), "low": float(start[2]),
             "high": float(upto[:, 2].max()) if len(upto) else float(first[2]),
             "start": float(start[3] + start[4] * (motion.table == "rough")), "left": float(last[3]),

@@ -117,6 +117,10 @@ def scene_of(
             refused[each] = _sentence(error)
         except TooLong:
             refused[each] = say("lab.refused.too-long")
+        except (ValueError, ArithmeticError):  # of the solvers without friction, where digits are lost
+            if each == "ordinary":
+                raise
+            refused[each] = say("planes.run.extreme")
     found = {name: motion for name, motion in motions.items() if motion is not None}
     start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
     return LabScene(

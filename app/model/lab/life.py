@@ -48,8 +48,8 @@ def lived(start: Setup, look: Callable[[], Callable[[float], object]]) -> tuple[
     if len(found.t) > MOST_ROWS:
         found = thinned(moved, time, time * float(found.t[MOST_ROWS - 1]))
     elif len(moved.t) < len(times):
-        return end, found
-    return time * float(found.t[-1]), found
+        return min(end, LIFE), found
+    return min(time * float(found.t[-1]), LIFE), found
 
 
 def _end(moved: Trajectory, time: float, *, ended: bool) -> float:

@@ -210,7 +210,10 @@ def whole_on(
         kept = arrival.read(start.top)
         return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
     if table != "ordinary":
-        seconds = whole_on("ordinary", toy, spin, tilt, mu, given, patch).start.seconds
+        try:
+            seconds = whole_on("ordinary", toy, spin, tilt, mu, given, patch).start.seconds
+        except (TopError, TooLong):
+            seconds = SECONDS
         return on(replace(start, seconds=seconds), table)
     try:
         seconds, kept = lived(start, Patience)
