@@ -10,7 +10,8 @@ from app.model.lab import ends, run
 from app.model.lab.keeps import KINDS, kinds
 from app.model.lab.lab import Lab, scene_of
 from app.model.lab.life import FAR, LIFE, SECONDS, lived
-from app.model.lab.run import TABLES, TOYS, motion_on, start_of, whole_on
+from app.model.lab.run import TOYS, motion_on, start_of, whole_on
+from app.model.planes.picture import TABLES
 from app.model.story import first_times, story
 from tippe_core import Contensou, State, slide, slide_many
 

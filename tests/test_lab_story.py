@@ -17,7 +17,8 @@ from app.model.lab import ends, run
 from app.model.lab.ends import SPINS, ends_of, mixed
 from app.model.lab.lab import scene_of
 from app.model.lab.life import SECONDS
-from app.model.lab.run import TABLES, TOYS, motion_on, whole_on
+from app.model.lab.run import TOYS, motion_on, whole_on
+from app.model.planes.picture import TABLES
 from app.model.regimes import ENDS
 from app.model.runs import Stopped
 from app.model.story import first_times, story

@@ -32,7 +32,7 @@ def usual():
 
 def heights(picture):
     """Of the ball's lowest point and of the lowest on the rim of the stem's end, straight from the pose; t in s."""
-    moved = picture.motions["sliding"].trajectory
+    moved = picture.motions["ordinary"].trajectory
     x, y, z, w = moved.quaternion.T
     c, s = 1 - 2 * (x * x + y * y), 2 * np.hypot(x * z - w * y, y * z + w * x)
     radius, up, _ = picture.settings.shape.edge
@@ -51,7 +51,7 @@ def test_the_default_run_is_told_with_all_its_touches(usual):
     assert f"and from {both:.2f} s to the end on both ball and stem" in said
     assert said.startswith("leans on ball and stem: 118.8° at 5 s") and "turn" not in said
     with speaking("de"):
-        assert "8,2 ms lang auf dem Stiel allein" in fate(picture, "sliding")
+        assert "8,2 ms lang auf dem Stiel allein" in fate(picture, "ordinary")
 
 
 @pytest.mark.slow
@@ -59,11 +59,11 @@ def test_on_its_way_back_it_does_not_turn_over(usual):
     """After 60 s it is upright: what 5 s show of it is cut."""
     for spin in (25.0, 35.0):
         picture, said = ran(usual, spin=spin)
-        theta = picture.motions["sliding"].trajectory.theta
+        theta = picture.motions["ordinary"].trajectory.theta
         assert theta[-1] < theta[-1000] and said.startswith("is still on its way")
         assert "Only the end of the 5 s cuts it off: its tilt still falls." in said
     picture, said = ran(usual, spin=25.0, seconds=60.0)
-    theta = np.degrees(picture.motions["sliding"].trajectory.theta)
+    theta = np.degrees(picture.motions["ordinary"].trajectory.theta)
     assert theta[-1] < 0.2 and said.startswith(f"is upright: {theta[-1]:.1f}° at 60 s")
     assert "so it stays" in said
 
@@ -72,13 +72,13 @@ def test_on_its_way_back_it_does_not_turn_over(usual):
 def test_the_balls_verdict_is_of_the_ball_alone_and_void_from_the_stems_touch(usual):
     picture, _ = ran(usual, spin=25.0)
     said = re.sub(r"<[^>]*>", "", ball_words(picture))
-    moved, (t, ball, _) = picture.motions["sliding"].trajectory, heights(picture)
+    moved, (t, ball, _) = picture.motions["ordinary"].trajectory, heights(picture)
     first, J = t[ball > 1e-7][0], moved.jellett
     assert said.startswith("What friction would do to its ball alone, without a stem, if it went on slipping: ")
     assert f"no longer holds from {first:.2f} s on" in said and f"by {100 * np.ptp(J) / np.abs(J).max():.3g} %" in said
     assert "in this run it has not" in ball_words(ran(usual, spin=5.0)[0])
     thrown = ran(usual, spin=32.0, landing="stop", seconds=2.2)[0]
-    assert thrown.motions["sliding"].ended == THROWN and "no longer holds from 2.12 s on" in ball_words(thrown)
+    assert thrown.motions["ordinary"].ended == THROWN and "no longer holds from 2.12 s on" in ball_words(thrown)
     assert "from the start" in ball_words(ran(usual, tilt=150.0, seconds=0.5)[0])
     assert "stem" not in ball_words(ran(usual, stem=False, seconds=0.5)[0])
 
@@ -86,7 +86,7 @@ def test_the_balls_verdict_is_of_the_ball_alone_and_void_from_the_stems_touch(us
 def test_of_a_patch_nothing_is_said_to_come_given_time(usual):
     """In none of 24 runs on a patch did what holds for a point come true: pivoting takes J."""
     picture, _ = ran(usual, law="contact", seconds=1.0)
-    J = picture.motions["sliding"].trajectory.jellett
+    J = picture.motions["ordinary"].trajectory.jellett
     said = ball_words(picture)
     assert "given time" not in said and f"in this run {100 * np.ptp(J) / np.abs(J).max():.3g} % of it" in said
 
@@ -100,7 +100,7 @@ def test_what_goes_past_90_degrees_is_not_said_to_stay_below(usual):
 @pytest.mark.slow
 def test_true_stick_holds_it_and_the_page_says_when_and_that_it_rises_no_more(usual):
     picture, said = ran(usual, law="coulomb", mu_s=0.3)
-    moved = picture.motions["sliding"].trajectory
+    moved = picture.motions["ordinary"].trajectory
     since = moved.t[moved.regime == "roll"][0] * picture.settings.scales.time
     assert 0.03 < since < 0.07 and moved.theta[moved.regime == "roll"].max() < np.radians(5.2)
     told = float(re.search(r"Static friction has held it since ([\d.]+) s", said)[1])
@@ -110,7 +110,7 @@ def test_true_stick_holds_it_and_the_page_says_when_and_that_it_rises_no_more(us
 def test_of_a_rolling_top_all_of_its_nutation_is_told(usual):
     """Its last tenth is less than one swing here."""
     picture, said = ran(usual, law="coulomb", spin=0.0, tilt=60.0, seconds=1.0, slip=0.5)
-    moved = picture.motions["sliding"].trajectory
+    moved = picture.motions["ordinary"].trajectory
     theta = np.degrees(moved.theta[moved.regime == "roll"])
     assert f"between {theta.min():.1f}° and {theta.max():.1f}°: rolling" in said
     assert np.ptp(theta) > 1.5 * np.ptp(theta[-len(theta) // 10 :])
@@ -120,7 +120,7 @@ def test_of_a_rolling_top_all_of_its_nutation_is_told(usual):
 
 def test_exactly_upright_it_stays_so_and_nobody_says_that_it_will_turn_over(usual):
     picture, said = ran(usual, tilt=0.0)
-    assert np.all(picture.motions["sliding"].trajectory.theta == 0)
+    assert np.all(picture.motions["ordinary"].trajectory.theta == 0)
     assert said.startswith("stays exactly as it is: 0.0° at 5 s") and "cuts it off" not in said
     assert "exactly in balance it stays as it is; nudged, it will turn over" in ball_words(picture)
     assert ran(usual, tilt=0.001, seconds=1.0)[0].outcome.verdict == "turns over"
@@ -130,13 +130,13 @@ def test_no_bead_is_above_the_energy_that_it_has(usual):
     """V_J is the least energy at its J: drawn with another J it is not."""
     picture, _ = ran(usual, spin=25.0)
     well = plots.Well()
-    well.show(picture, "sliding")
+    well.show(picture, "ordinary")
     t, V, E, which = (np.array(well.path.data[name]) for name in ("t", "V", "E", "well"))
     assert np.all(V[which >= 0] <= E[which >= 0] + 1e-9)
     times, _, stem = heights(picture)
     touching = np.abs(np.interp(t, times, stem)) < 1e-6
     assert np.all(which[touching & (t > 2.45) & (t < 3.1)] == -1) and set(which) == {-1, 0, 1}
-    C_J = [found.C_J for found in intervals(picture, "sliding")]
+    C_J = [found.C_J for found in intervals(picture, "ordinary")]
     assert C_J == pytest.approx([2.37, 0.165], abs=0.005)  # of the issue
 
 
@@ -152,7 +152,7 @@ def test_a_fast_swing_keeps_its_width():
 
 def test_tracks_are_in_the_units_of_the_page(usual):
     picture, _ = ran(usual, seconds=1.0)
-    motion, scales = picture.motions["sliding"], picture.settings.scales
+    motion, scales = picture.motions["ordinary"], picture.settings.scales
     found = tracks(motion, scales)
     assert found["theta"].value[0] == pytest.approx(picture.settings.tilt)
     assert found["omega3"].value[0] == pytest.approx(picture.settings.spin)
@@ -163,7 +163,7 @@ def test_tracks_are_in_the_units_of_the_page(usual):
 
 def all_said(settings):
     picture = solve(settings)
-    return picture, re.sub(r"<[^>]*>", "", " ".join((fate(picture, "sliding"), ball_words(picture))))
+    return picture, re.sub(r"<[^>]*>", "", " ".join((fate(picture, "ordinary"), ball_words(picture))))
 
 
 DISC, CONE, PAPERS = "Disc on a peg", "Wooden cone", "The paper's tippe top"
@@ -200,13 +200,13 @@ def test_what_is_said_is_so(body, settings, says, nots):
 def test_stuck_since_its_last_touch_and_not_before():
     """A touch of 0.16 ms falls between two samples."""
     picture, said = all_said(of(PAPERS, **STICKS | NO_SPIN | {"tilt": 130.0}))
-    last = picture.motions["sliding"].ending.stretches[-1].start * picture.settings.scales.time
+    last = picture.motions["ordinary"].ending.stretches[-1].start * picture.settings.scales.time
     assert float(re.search(r"Static friction has held it since ([\d.]+) s", said)[1]) >= round(last, 2) > 3
 
 
 def deepest(picture):
     """The lowest point of the whole body in all of the run, above the table."""
-    moved, (radius, z) = picture.motions["sliding"].trajectory, picture.settings.shape.profile(400).T
+    moved, (radius, z) = picture.motions["ordinary"].trajectory, picture.settings.shape.profile(400).T
     c, s = np.cos(moved.theta)[:, None], np.sin(moved.theta)[:, None]
     return (moved.com[:, 2:] + moved.top.a * c + (z * c - radius * s) / picture.settings.shape.R).min()
 
@@ -220,5 +220,5 @@ def test_no_other_part_of_the_body_is_below_the_table(body, most):
     assert deepest(solve(of(body, tilt=most - 1, seconds=0.1))) > -1e-6
     fast = State(np.radians(most - 1), 3.0, 0.0, 0.0, vx=0.0, vy=0.0)
     picture, said = all_said(of(body, rolling=fast, seconds=0.3))
-    assert deepest(picture) > -1e-6 and picture.motions["sliding"].ended == "another part touches"
+    assert deepest(picture) > -1e-6 and picture.motions["ordinary"].ended == "another part touches"
     assert said.startswith("goes no further") and "nothing is computed here" in said

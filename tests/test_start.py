@@ -127,8 +127,8 @@ def test_the_planes_do_what_the_lab_does(views):
 
 def test_the_table_goes_along(views):
     views.lab.ask(table="three")
-    assert views.go("three-planes").planes.plane == "compare"
-    assert views.start.table("ice") == "three-planes" and views.planes.plane == "smooth"
+    assert views.go("three-planes").planes.plane == "three"
+    assert views.start.table("ice") == "three-planes" and views.planes.plane == "ice"
     assert views.go("lab").lab.scene.table == "ice"
     assert views.go(None, "rough").room == "roll"
     assert views.go("lab").lab.scene.table == "rough"

@@ -5,7 +5,8 @@ import math
 from types import MappingProxyType
 from typing import TypeAlias
 
-from app.model.lab.run import TABLES, TOYS
+from app.model.lab.run import TOYS
+from app.model.planes.picture import TABLES
 from app.text import say
 from tippe_core import Shape
 

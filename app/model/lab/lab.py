@@ -19,7 +19,6 @@ from app.model.lab.keeps import keeps, while_it_turns
 from app.model.lab.run import (
     PATCH,
     SHIPS,
-    TABLES,
     TableMotion,
     TooLong,
     Toy,
@@ -27,6 +26,7 @@ from app.model.lab.run import (
     start_of,
     whole_on,
 )
+from app.model.planes.picture import TABLES
 from app.model.runs import LATER, Result, Run, Runs, Stopped
 from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, of_all, story

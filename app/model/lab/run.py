@@ -24,8 +24,6 @@ from tippe_core import PRESETS, Contensou, Preset, Shape, State, Top, TopError, 
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
-TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth"})
-"""{table: its name in planes/run.py}."""
 TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
 PATCH = 0.5  # mm: the default radius of the contact patch
 MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
@@ -248,7 +246,7 @@ def moved(start: Start, table: str, trajectory: Trajectory, lost: float, *, whol
     """The TableMotion of the results of computed(). whole: the trajectory is already thinned and goes to the end."""
     shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
     times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)
-    motion = motion_of(shown, start, times, TABLES[table])
+    motion = motion_of(shown, start, times, table)
     return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole or table != "ordinary",
                        curves=_curves(motion, start, lost))  # fmt: skip
 

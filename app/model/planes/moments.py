@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab.run import TABLES, Watched
+from app.model.lab.run import Watched
 from app.model.phases import carried
 from app.model.planes.picture import SHORT, Motion, Settings
 from app.model.regimes import NAMES
@@ -16,7 +16,6 @@ OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")
 """Events of the story that are listed as those of its contacts."""
 MOST = 16
 ON = {"both": "both", "stem": "stem", "none": "air"}
-TABLE = {plane: table for table, plane in TABLES.items()}
 
 
 class Moment(NamedTuple):
@@ -32,7 +31,7 @@ def moments(motion: Motion | None, settings: Settings, plane: str) -> tuple[Mome
     """The Moments of a motion, in the page's language; at most MOST of them, and the last one."""
     if motion is None:
         return ()
-    watched = Watched(**vars(motion), start=settings, table=TABLE[plane])
+    watched = Watched(**vars(motion), start=settings, table=plane)
     unit, words, part = settings.scales.time, listed("lab.events"), say(f"planes.parts.{settings.part}")
     found = [(t, words[code][0].format(part=part)) for t, code in happened(watched) if code not in OF_CONTACTS]
     found += _turns(motion, unit) + _touches(motion, unit, part)

@@ -27,7 +27,7 @@ from tippe_core import (
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Indices, Rim
 
-PLANES = ("rough", "smooth", "sliding")
+TABLES = ("ordinary", "rough", "ice")
 LAWS = ("contact", "coulomb", "viscous", "smoothed")
 SET = ("spin", "tilt", "slip", "law", "mu", "mu_s", "gamma", "eps", "patch", "landing", "stem", "seconds")
 BY = {True: "spin", False: "constants"}
@@ -242,7 +242,7 @@ class Picture:
     @property
     def is_old(self) -> bool:
         """Whether it is not of its inputs, but of the last ones that gave one."""
-        return not {*self.messages} <= {*PLANES}
+        return not {*self.messages} <= {*TABLES}
 
     @property
     def turns(self) -> float:

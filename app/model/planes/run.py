@@ -14,8 +14,8 @@ from app.model.frames import in_space
 from app.model.planes.picture import (
     KEPT,
     NEAR_TOUCH,
-    PLANES,
     RTOL,
+    TABLES,
     Motion,
     Picture,
     Settings,
@@ -54,21 +54,21 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
     check_room(settings, state)
     runs = {
         "rough": lambda: clear(lambda: roll(top, None, times, grip(top, state)[0]), settings, state),
-        "smooth": lambda: clear(lambda: glide(top, state, times), settings, state),
-        "sliding": lambda: slid(settings, state, times, progress),
+        "ice": lambda: clear(lambda: glide(top, state, times), settings, state),
+        "ordinary": lambda: slid(settings, state, times, progress),
     }
     motions: dict[str, Motion | None] = {}
     messages: dict[str, str] = {}
-    for plane in PLANES:
+    for plane in TABLES:
         try:
             motions[plane] = motion_of(runs[plane](), settings, times, plane)
         except TopError as error:
-            if plane == "sliding":
+            if plane == "ordinary":
                 raise
             motions[plane], messages[plane] = None, told(for_reader(error, settings.scales))
         # the solver's error for numbers whose squares or reciprocals overflow
         except (ValueError, ArithmeticError):
-            if plane == "sliding":
+            if plane == "ordinary":
                 raise
             motions[plane], messages[plane] = None, say("planes.run.extreme")
     return Picture(
@@ -106,7 +106,7 @@ def _below(settings: Setup, theta: Array) -> Bools:
 def nudged(picture: Picture, progress: Progress | None = None) -> float:
     """The largest factor by which NUDGE, added to the initial tilt, grows in theta on the sliding plane; BESIDE after
     the first touch is long enough to tell."""
-    settings, state, motion = picture.settings, picture.state, picture.motions["sliding"]
+    settings, state, motion = picture.settings, picture.state, picture.motions["ordinary"]
     assert motion is not None and motion.ending is not None  # something touched there
     moved, until = motion.trajectory, motion.ending.stretches[0].end + BESIDE / settings.scales.time
     near = slid(settings, beside(state, NUDGE), moved.t[moved.t <= until], progress)
@@ -150,7 +150,7 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
     code = np.array([OF_CORE[word] for word in trajectory.regime])
     if plane == "rough":
         code[trajectory.force[:, 2] < 0] = WOULD_LIFT
-    elif plane == "smooth":
+    elif plane == "ice":
         code[code == SLIPS] = GLIDES  # without friction
     frames = [trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com, trajectory.theta,
               *in_space(trajectory), code]  # fmt: skip
@@ -163,12 +163,12 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
     stretches = zip(t[starts], np.append(t[starts[1:]], t[-1]), code[starts], strict=True)
     first = next((event for event in trajectory.events if event[1] not in ("sticks", "slips")), (t[-1], ""))
     until, event = first
-    if event == "lifts off" and plane == "sliding" and settings.edge and touches(trajectory, until, settings):
+    if event == "lifts off" and plane == "ordinary" and settings.edge and touches(trajectory, until, settings):
         event = THROWN
     last = trajectory.events[-1] if ended and trajectory.events else (t[-1], "")
     return Motion(
         trajectory=trajectory,
-        ending=ending(trajectory) if plane == "sliding" else None,
+        ending=ending(trajectory) if plane == "ordinary" else None,
         ended=event if last == first else last[1],
         t=t,
         frames=tuple(frames),
@@ -192,5 +192,5 @@ def _drift(values: Array) -> float:
 
 def hits(picture: Picture) -> bool:
     """Whether anything but its ball touched; that makes a motion sensitive to its start."""
-    motion = picture.motions["sliding"]
+    motion = picture.motions["ordinary"]
     return motion is not None and motion.ending is not None and len(motion.ending.stretches) > 1

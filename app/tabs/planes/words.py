@@ -7,7 +7,7 @@ import numpy as np
 
 from app.model.colours import COLOURS
 from app.model.planes.became import became, trend
-from app.model.planes.picture import PLANES, RTOL, SHORT
+from app.model.planes.picture import RTOL, SHORT, TABLES
 from app.model.planes.run import THROWN
 from app.model.regimes import WOULD_LIFT
 from app.text import listed, say, written
@@ -15,7 +15,7 @@ from app.widgets.cards import swatch
 from app.widgets.typeset import power
 
 # The colour of each plane, the same in all pictures of this room.
-LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
+LOOKS = {"ordinary": COLOURS["friction"], "rough": COLOURS["normal"], "ice": COLOURS["jellett"]}
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # A smaller drift is numerical error; physics changes a quantity by more.
 ROUNDING = 1e-7
@@ -37,7 +37,7 @@ def milliseconds(seconds):
 def in_force(picture, plane):
     """The present friction law, with its parameters."""
     law, velocity, kind = picture.friction, picture.settings.scales.velocity, picture.settings.law
-    if plane in ("rough", "smooth"):
+    if plane in ("rough", "ice"):
         return say(f"planes.force.{plane}")
     if kind == "coulomb":
         return say("planes.force.coulomb", mu_k=law.mu_k, mu_s=law.mu_s)
@@ -70,7 +70,7 @@ def fate(picture, plane):
     motion = picture.motions[plane]
     if motion is None:
         return html.escape(picture.messages.get(plane, say("planes.fate.nothing")))
-    if plane == "sliding":
+    if plane == "ordinary":
         return " ".join(filter(None, (_where(picture, motion), _touched(picture, motion), _goes_on(picture, motion))))
     theta, last = motion.trajectory.theta, motion.trajectory.t[-1] * picture.settings.scales.time
     low, high = degrees(theta.min()), degrees(theta.max())
@@ -88,7 +88,7 @@ def fate(picture, plane):
 def _gripped(picture):
     """The energy that the rough plane takes if the start does not roll."""
     before, after = (float(motion.trajectory.energy[0]) for motion in (
-        picture.motions["sliding"], picture.motions["rough"]))  # fmt: skip
+        picture.motions["ordinary"], picture.motions["rough"]))  # fmt: skip
     taken = before - after
     return say("planes.fate.gripped", taken=taken) if taken > ROUNDING * before else ""
 
@@ -206,7 +206,7 @@ def outcome_words(goes, scales):
 
 def ball_words(picture):
     """What friction would do to the ball alone, and how far that applies to this run."""
-    settings, sliding = picture.settings, picture.motions["sliding"]
+    settings, sliding = picture.settings, picture.motions["ordinary"]
     if _frictionless(picture):
         heat = sliding.trajectory.heat[-1] if sliding else 0.0
         if heat > ROUNDING:
@@ -248,13 +248,13 @@ def run_words(picture):
     turns = state.omega3 * settings.scales.angular_velocity / (2 * np.pi)
     return say("planes.run.of", a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
                body=say(f"planes.run.{touches}", part=part(settings)), rtol=power(RTOL),
-               law=in_force(picture, "sliding"),
+               law=in_force(picture, "ordinary"),
                start=say(f"planes.run.{start}", tilt=degrees(state.theta), spin=turns, slip=settings.slip))  # fmt: skip
 
 
 def verdict_words(picture):
     lines = [f'<div class="line">{swatch(LOOKS[plane], "")}<b>{say(f"planes.plane.{plane}")}</b>: '
-             f"{fate(picture, plane)}</div>" for plane in PLANES]  # fmt: skip
+             f"{fate(picture, plane)}</div>" for plane in TABLES]  # fmt: skip
     return (
         "".join(lines)
         + f'<div class="says">{ball_words(picture)}{scatter_words(picture)}</div>'
@@ -267,11 +267,11 @@ def verdict_words(picture):
 
 def table_words(picture):
     """What is conserved on each plane: the measured drift."""
-    head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in PLANES)
+    head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in TABLES)
     rows = []
     for name in SURVIVES:
         cells = []
-        for plane in PLANES:
+        for plane in TABLES:
             motion = picture.motions[plane]
             cells.append(f"<td>{drift_words(name, motion, picture) if motion else say('planes.drift.nothing')}</td>")
         rows.append(f"<tr><td>{say(f'planes.survives.{name}')}</td>{''.join(cells)}</tr>")
