@@ -9,8 +9,8 @@ import pytest
 from said import faults, link, starts
 
 from app.model import tell
-from app.model.lab.run import motion_on, whole_on
 from app.model.phases import KINDS, Samples, comes_back, phases
+from app.model.run import motion_on, whole_on
 from app.model.story import story
 from app.text import LANGUAGES, listed
 

@@ -8,12 +8,13 @@ import pytest
 from house import chosen, planes_of, ran
 
 from app.model.explorer import Explorer
-from app.model.planes.picture import LEAST_FRAMES, MOST_TURN, TABLES
+from app.model.motion import THROWN, touches
 from app.model.planes.planes import PRESETS
-from app.model.planes.run import THROWN, nudged, solve, touches
+from app.model.planes.run import nudged, solve
 from app.model.planes.wells import intervals
 from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS
 from app.model.runs import Runs
+from app.model.setup import LEAST_FRAMES, MOST_TURN, TABLES
 from app.tabs.planes.words import fate, scatter_words
 from tippe_core import Coulomb, State, Stretch, Top, glide, grip, roll, slide
 

@@ -13,10 +13,11 @@ from house import builder_of, chosen, of, planes_of, ran
 from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
-from app.model.planes.picture import MOST_FRAMES, MOST_SECONDS
-from app.model.planes.run import for_reader, solve
+from app.model.motion import for_reader
+from app.model.planes.run import solve
 from app.model.planes.wells import wells
 from app.model.runs import Runs
+from app.model.setup import MOST_FRAMES, MOST_SECONDS
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.planes.words import fate
 from app.text import speaking

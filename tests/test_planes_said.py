@@ -7,7 +7,8 @@ import pytest
 from house import of, planes_of, ran
 
 from app.model.explorer import Explorer
-from app.model.planes.run import THROWN, solve
+from app.model.motion import THROWN
+from app.model.planes.run import solve
 from app.model.planes.tracks import BUCKETS, extremes, tracks
 from app.model.planes.wells import intervals
 from app.tabs.planes import plots

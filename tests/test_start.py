@@ -13,11 +13,12 @@ from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
-from app.model.lab.run import TOYS, start_of
 from app.model.lesson.lesson import NAMES as STEP_NAMES
 from app.model.planes.picture import SET
 from app.model.planes.planes import Planes
+from app.model.run import start_of
 from app.model.runs import Runs
+from app.model.setup import TOYS
 from app.model.start import TABLES, Start, arrives, of_toy
 from app.page import page
 from app.page.house import House

@@ -4,8 +4,7 @@ import pytest
 import story_checker
 from story_checker import BODIES, STEMLESS, faults, starts, told_by
 
-from app.model import tell
-from app.model.lab import run
+from app.model import run, tell
 
 FALSE = [
     ("hollow", "spin=20.616&tilt=17.50&mu_k=0.070"),  # "from 15° to 15°": heights, in mm

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab.run import TableMotion, Watched
 from app.model.phases import SIDE, SPINS, Phase
 from app.model.regimes import WOULD_LIFT
+from app.model.run import TableMotion, Watched
 from app.text import listed, say
 from tippe_core import thresholds
 from tippe_core.types import Array, Number

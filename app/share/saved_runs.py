@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from app.model.phases import carried
-from app.model.planes.picture import Setup
+from app.model.setup import Setup
 from app.share import export, glb, prints
 from app.text import say
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, Trajectory

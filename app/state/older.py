@@ -1,7 +1,7 @@
 """Links of version 1, in which each view of the Lab had its own top, start and table: they still open what they opened,
 and are rewritten with today's names."""
 
-from app.model.lab.run import TOYS
+from app.model.setup import TOYS
 from app.state.codecs import Body, Number
 from app.state.names import TAB
 

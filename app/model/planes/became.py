@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from app.model.planes.picture import Motion, Picture
+from app.model.motion import Motion
+from app.model.planes.picture import Picture
 
 # A tilt whose least and largest change by less than STEADY (rad) between the last two fifths of the time neither rises
 # nor falls. SHARE of the tilt, or of what it swings, counts as a change where the tilt is small.

@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab.run import Watched
+from app.model.motion import Motion
 from app.model.phases import carried
-from app.model.planes.picture import SHORT, Motion, Settings
+from app.model.planes.picture import SHORT, Settings
 from app.model.regimes import NAMES
+from app.model.run import Watched
 from app.model.story import happened
 from app.text import listed, say
 

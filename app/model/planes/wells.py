@@ -9,7 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.planes.picture import SHORT, TABLES, Motion, Picture
+from app.model.motion import Motion
+from app.model.planes.picture import SHORT, Picture
+from app.model.setup import TABLES
 from tippe_core import SteadyStates, Stretch, Top, jellett_potential, steady_states
 from tippe_core.types import Array, Bools, Indices
 

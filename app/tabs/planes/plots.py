@@ -8,10 +8,10 @@ from app.bundle import call
 from app.model.build.dimensions import named
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.families.groups import areas
-from app.model.planes.picture import TABLES
 from app.model.planes.tracks import QUANTITIES, ledger, tracks
 from app.model.planes.wells import wells
 from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
+from app.model.setup import TABLES
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say, written
 from app.widgets.plots import draw, on_click, on_pointer, plain

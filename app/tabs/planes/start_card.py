@@ -4,8 +4,8 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.planes.picture import TABLES
 from app.model.planes.planes import PRESETS
+from app.model.setup import TABLES
 from app.tabs.planes.words import degrees, stem_words
 from app.text import listed, say
 from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, note, on_click, progress, words

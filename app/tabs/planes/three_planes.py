@@ -5,10 +5,10 @@ import panel as pn
 from app.bundle import pack
 from app.model.colours import COLOURS
 from app.model.planes.moments import moments
-from app.model.planes.picture import TABLES
 from app.model.planes.planes import PATIENCE, preset
 from app.model.playing import Playing, together
 from app.model.regimes import COLOUR, NAMES
+from app.model.setup import TABLES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.start_card import StartCard
 from app.tabs.planes.words import LOOKS, in_force, table_words, verdict_words

@@ -6,10 +6,11 @@ from itertools import groupby
 import numpy as np
 
 from app.model.colours import COLOURS
+from app.model.motion import RTOL, THROWN
 from app.model.planes.became import became, trend
-from app.model.planes.picture import RTOL, SHORT, TABLES
-from app.model.planes.run import THROWN
+from app.model.planes.picture import SHORT
 from app.model.regimes import WOULD_LIFT
+from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.cards import swatch
 from app.widgets.typeset import power

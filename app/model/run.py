@@ -8,34 +8,28 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
 from app.model.bodies import body
-from app.model.lab.life import SECONDS, lived, thinned, within
+from app.model.life import SECONDS, lived, thinned, within
+from app.model.motion import Motion, check_room, clear, for_reader, motion_of, slid
 from app.model.phases import Phase, carried, phases, samples
-from app.model.planes.picture import Motion, Setup, by_hand
-from app.model.planes.run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
-from tippe_core import PRESETS, Contensou, Preset, Shape, State, Top, TopError, Trajectory, glide, grip, roll
+from app.model.setup import PATCH, TOYS, Setup, Toy, by_hand, shape_of
+from tippe_core import Contensou, State, TopError, Trajectory, glide, grip, roll
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
-TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
-PATCH = 0.5  # mm: the default radius of the contact patch
 MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
 STEM = "stem", "both"
 WHILE = 0.2  # s
 NEARLY = 1e-5  # relative: the precision of a time stored as float32
 SHIPS = *arrival.ARRIVAL, None, PATCH
-
-
-Toy: TypeAlias = str | Shape
-"""The name of one of TOYS, or a body of the visitor's own."""
 
 
 class TooLong(Exception):
@@ -167,16 +161,6 @@ class TableMotion(Watched):
         """Whether the motion continues after the end of what was computed."""
         ended = bool(self.ended) and len(self.trajectory.t) < len(self.t)
         return self.whole and self.table == "ordinary" and not ended and bool(np.isnan(self.rolls_since))
-
-
-def shape_of(toy: Toy) -> Shape:
-    """The body of a toy."""
-    return TOYS[toy].shape if isinstance(toy, str) else toy
-
-
-def toy_of(shape: Shape, top: Top) -> Toy:
-    """The name in TOYS of the toy with this body and this top; if there is none, the body."""
-    return next((name for name, preset in TOYS.items() if preset.shape == shape and preset.top == top), shape)
 
 
 def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH) -> Start:

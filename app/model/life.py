@@ -6,8 +6,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from app.model.planes.picture import Setup
-from app.model.planes.run import slid
+from app.model.motion import slid
+from app.model.setup import Setup
 from tippe_core import TopError, Trajectory
 
 SECONDS = 6.0  # of a run while a hand moves, and at least of any other
