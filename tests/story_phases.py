@@ -147,7 +147,8 @@ def divisions(run):
     stem = [(since, to) for since, to, what in run.carried if what in ("stem", "both")]
     leaves = stem and run.carried[-1][2] == "ball" and stem[-1][1] - stem[0][0] > WHILE
     on_stem = [stem[-1][1]] if leaves else []
-    rolling = [s for s, e in sampled(run.t, run.regime == "roll") if e == run.end and s > run.start]
+    spells = sampled(run.t, run.regime == "roll")
+    rolling = [max(s, run.carried[-1][0]) for s, e in spells if e == run.end and s > run.start]
     return [at for at in [*on_stem[-1:], *rolling] if run.start < at < run.end]
 
 

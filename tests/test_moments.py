@@ -25,7 +25,7 @@ def toy():
 
 
 def told(picture, plane):
-    return moments(picture.motions[plane], picture.settings, plane)
+    return moments(picture.motions[plane])
 
 
 def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
@@ -52,7 +52,7 @@ def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
 
 def test_what_only_rolls_or_glides_has_little_to_tell(toy):
     assert [moment.word for plane in ("rough", "ice") for moment in told(toy, plane)] == ["let go", "let go"]
-    assert moments(None, toy.settings, "rough") == ()
+    assert moments(None) == ()
 
 
 def test_a_stem_that_chatters_is_told_in_few_lines():

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from app.model import arrival
 from app.model.bodies import body
 from app.model.life import SECONDS, lived, thinned, within
-from app.model.motion import Motion, check_room, clear, for_reader, motion_of, slid
+from app.model.motion import Motion, Progress, check_room, clear, for_reader, motion_of, slid
 from app.model.phases import Phase, carried, phases, samples
 from app.model.runs import look
 from app.model.setup import PATCH, TOYS, Setup, Toy, by_hand, shape_of
@@ -101,7 +101,10 @@ class Watched(Motion):
         slips = np.flatnonzero(self.trajectory.regime != "roll")
         if not len(slips):
             return 0.0
-        return float(self.seconds[slips[-1] + 1]) if slips[-1] + 1 < len(self.seconds) else np.nan
+        if slips[-1] + 1 == len(self.seconds):
+            return np.nan
+        touch = self.trajectory.supports[-1][0] * self.start.scales.time  # which may be between two samples
+        return float(max(self.seconds[slips[-1] + 1], touch))
 
     @property
     def ended_at(self) -> float | None:
@@ -151,7 +154,6 @@ class TableMotion(Watched):
     and the code of regimes.py.
     """
 
-    start: Start
     lost: float
     whole: bool
     curves: Array
@@ -214,12 +216,12 @@ def on(start: Start, table: str) -> TableMotion:
         raise for_reader(error, start.scales) from None
 
 
-def computed(start: Start, table: str) -> tuple[Trajectory, float]:
-    """The trajectory of a Start on a table, and the energy (MgR) that the grip of the rough one has taken."""
+def computed(start: Setup, table: str, progress: Progress | None = None) -> tuple[Trajectory, float]:
+    """The trajectory of a Setup on a table, and the energy (MgR) that the grip of the rough one has taken."""
     top, state, times, lost = start.top, start.state, start.times, 0.0
     check_room(start, state)
     if table == "ordinary":
-        return slid(start, state, times, Patience()), lost
+        return slid(start, state, times, progress or Patience()), lost
     if table == "ice":
         return clear(partial(glide, top, state, times), start, state), lost
     state, lost = grip(top, state)
@@ -230,12 +232,17 @@ def moved(start: Start, table: str, trajectory: Trajectory, lost: float, *, whol
     """The TableMotion of the results of computed(). whole: the trajectory is already thinned and goes to the end."""
     shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
     times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)
-    motion = motion_of(shown, start, times, table)
-    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole or table != "ordinary",
+    return watched(shown, start, times, table, lost, whole=whole or table != "ordinary")
+
+
+def watched(trajectory: Trajectory, start: Setup, times: Array, table: str, lost: float, *, whole: bool) -> TableMotion:
+    """The TableMotion of a Trajectory that was asked for at these times."""
+    motion = motion_of(trajectory, start, times, table)
+    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole,
                        curves=_curves(motion, start, lost))  # fmt: skip
 
 
-def _curves(motion: Motion, start: Start, lost: float) -> Array:
+def _curves(motion: Motion, start: Setup, lost: float) -> Array:
     moved, scales = motion.trajectory, start.scales
     turns, millimetres = scales.angular_velocity / (2 * np.pi), 1e3 * scales.R
     spin, above = moved.omega[:, 2], moved.omega[:, 1] * np.sin(moved.theta) + moved.omega[:, 2] * np.cos(moved.theta)

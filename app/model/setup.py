@@ -7,7 +7,7 @@ from typing import ClassVar, TypeAlias
 import numpy as np
 
 from app.model.bodies import outline, second_part
-from tippe_core import PRESETS, Preset, Scales, Shape, State, Top, TopError
+from tippe_core import PRESETS, Preset, Scales, Shape, State, Top, TopError, Viscous
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Rim
 
@@ -48,6 +48,11 @@ class Setup:
     def friction(self) -> Friction:
         """The friction law of the table on which it slides."""
         raise NotImplementedError
+
+    @property
+    def is_frictionless(self) -> bool:
+        """Whether its law is that of no friction at all."""
+        return isinstance(self.friction, Viscous) and self.friction.gamma == 0
 
     @property
     def state(self) -> State:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from app.model.motion import Motion
+from app.model.run import TableMotion
 from app.model.setup import TABLES, Setup, by_hand
 from tippe_core import (
     Contensou,
@@ -76,7 +76,7 @@ class Picture:
     settings: Settings
     state: State
     friction: Friction
-    motions: MappingProxyType[str, Motion | None]
+    motions: MappingProxyType[str, TableMotion | None]
     outcome: Outcome
     inputs: MappingProxyType[str, Any]
     growth: float | None = None

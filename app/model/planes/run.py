@@ -5,18 +5,17 @@ It runs in a thread, which has no page, so it is told in which language to say w
 
 from types import MappingProxyType
 
-from app.model.motion import Motion, Progress, check_room, clear, for_reader, motion_of, slid
+from app.model.motion import Progress, for_reader, slid
 from app.model.planes.picture import Picture, Settings
+from app.model.run import TableMotion, computed, watched
+from app.model.runs import look
 from app.model.setup import TABLES
 from app.text import say, told
 from tippe_core import (
     TopError,
     beside,
-    glide,
-    grip,
     growth,
     outcome,
-    roll,
 )
 
 NUDGE, BESIDE = 1e-6, 3.0  # rad, s: the additional tilt of the disturbed run, and how long it continues after a touch
@@ -26,17 +25,12 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
     """The Picture. progress: called with the fraction done; what it raises stops the run. Raises TopError, whose name
     is the input at fault."""
     top, state, times = settings.top, settings.state, settings.times
-    check_room(settings, state)
-    runs = {
-        "rough": lambda: clear(lambda: roll(top, None, times, grip(top, state)[0]), settings, state),
-        "ice": lambda: clear(lambda: glide(top, state, times), settings, state),
-        "ordinary": lambda: slid(settings, state, times, progress),
-    }
-    motions: dict[str, Motion | None] = {}
+    motions: dict[str, TableMotion | None] = {}
     messages: dict[str, str] = {}
     for plane in TABLES:
         try:
-            motions[plane] = motion_of(runs[plane](), settings, times, plane)
+            trajectory, lost = computed(settings, plane, progress or look)
+            motions[plane] = watched(trajectory, settings, times, plane, lost, whole=True)
         except TopError as error:
             if plane == "ordinary":
                 raise

@@ -237,7 +237,7 @@ class ThreePlanes:
             which = "ordinary" if compare else plane
             self._happened.rows = [
                 [t, f"{written(seconds, '.2f')} s", word, more]
-                for t, seconds, word, more in moments(picture.motions[which], picture.settings, which)
+                for t, seconds, word, more in moments(picture.motions[which])
             ]
 
     def _spread(self, compare):
