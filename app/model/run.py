@@ -27,7 +27,7 @@ from tippe_core.types import Array
 MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
 STEM = "stem", "both"
-WHILE = 0.2  # s
+WHILE, AT_ONCE = 0.2, 1e-6  # s
 NEARLY = 1e-5  # relative: the precision of a time stored as float32
 SHIPS = *arrival.ARRIVAL, None, PATCH
 
@@ -133,7 +133,8 @@ class Watched(Motion):
         if on and stretches[-1].on == "ball" and (on[-1].end - on[0].start) * unit > WHILE:
             found["off"] = on[-1].end * unit
         if 0.0 < self.rolls_since < self.seconds[-1]:
-            found["rolls"] = self.rolls_since
+            off = found.get("off", np.nan)
+            found["rolls"] = off if abs(self.rolls_since - off) < AT_ONCE else self.rolls_since
         return MappingProxyType(found)
 
     @cached_property
