@@ -83,6 +83,7 @@ lock:
 proof: $(VENV)/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
 	$(BIN)/python tests/measured_proof.py
+	$(BIN)/python tests/story_checker.py 1000 $$(date +%s)
 	$(BIN)/python tests/validation.py
 	$(BIN)/python tests/basins.py
 	$(BIN)/python tests/mutants.py --check

@@ -43,7 +43,7 @@ def chosen(explorer, planes, name):
 def ran(usual, **settings):
     """A Picture with some settings changed, and the sentence about it, without markup."""
     picture = solve(replace(usual.settings, **settings))
-    return picture, re.sub(r"<[^>]*>", "", fate(picture, "sliding"))
+    return picture, re.sub(r"<[^>]*>", "", fate(picture, "ordinary"))
 
 
 @cache

@@ -4,7 +4,7 @@ from contextlib import contextmanager
 
 from visiting import Visit
 
-from app.model.lab.run import TOYS
+from app.model.setup import TOYS
 
 TOPS = "__tippe.tops('lab')"
 TIME = "Number(window.__tippe.time('lab'))"

@@ -19,13 +19,14 @@ from panel.io.state import set_curdoc
 from app import text
 from app.model.explorer import Explorer
 from app.model.lesson import lesson
-from app.model.start import PLANE
 from app.page import page
 from app.state.codecs import Body
 from app.state.names import NAMES
 
 ROLL = "?v=1&tab=roll"  # what an address without a query opened, and contained, before the Lab existed
 TABS = ("roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")  # by their old numbers
+PLANE = {"ordinary": "sliding", "rough": "rough", "ice": "smooth", "three": "compare"}
+"""{table: its name in links of version 1}."""
 FILE = Path(__file__).parent / "data" / "links.json"
 
 

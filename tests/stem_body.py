@@ -10,7 +10,8 @@ m a mass such as that contact meets at most, so that both have the period 2 pi/k
 slide() decides by cases (who carries, lifts off, lands, sticks) here follows from the force; the hard table is the
 limit k -> infinity. The law of friction is this file's own:
 
-    Viscous: k(u) = gamma;   SmoothedCoulomb: k(u) = mu/(u^2 + eps^2)^1/2;   Coulomb: that with the eps given,
+    Viscous: k(u) = gamma;   SmoothedCoulomb: k(u) = mu/(u^2 + eps^2)^1/2;   Coulomb: that with the eps given;
+    Contensou: Coulomb's of each place of a round patch that presses as Hertz says, summed by quadrature,
 
 true stick being the limit eps -> 0. Stepping is Runge and Kutta's of fourth order; a step is a share of the shortest
 time scale there and then, that of the table or that of friction. Units: R, M, g. Compiled, about a second for 60 s of
@@ -18,7 +19,7 @@ the real toy.
 """
 
 from dataclasses import dataclass
-from math import cos, hypot, sin, sqrt
+from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 from numba import njit
@@ -57,14 +58,17 @@ def integrate(top, state, friction, times, edge=None, k=1e6, damping=7.0, eps=1e
     """
     law = {"Viscous": lambda: (True, friction.gamma, 0.0),
            "SmoothedCoulomb": lambda: (False, friction.mu, friction.eps),
-           "Coulomb": lambda: (False, friction.mu_k, eps)}[type(friction).__name__]()  # fmt: skip
+           "Coulomb": lambda: (False, friction.mu_k, eps),
+           "Contensou": lambda: (False, friction.mu, eps)}[type(friction).__name__]()  # fmt: skip
+    is_patch = type(friction).__name__ == "Contensou"
+    summed, radius = (_summed(), friction.radius) if is_patch else (np.empty((0, 2)), 0.0)
     b, h, q = (*edge, 0.0)[:3] if edge else (0.0, 0.0, -1.0)  # a radius below 0: no stem
     reach = hypot(b, top.a + h) + q
     masses = 1 / (1 + top.a**2 / min(top.I1, top.I3)), 1 / (1 + reach**2 / min(top.I1, top.I3))
-    body = np.array([top.a, top.I1, top.I3, b, h, q, *masses, k, damping, law[1], law[2]])
+    body = np.array([top.a, top.I1, top.I3, b, h, q, *masses, k, damping, law[1], law[2], radius])
     y = _start(top, state, edge and (b, h, q))
     times = np.asarray(times, dtype=float)
-    rows, loads, changes, count = _follow(y, body, law[0], times, share)
+    rows, loads, changes, count = _follow(y, body, law[0], summed, times, share)
     if count > MOST_CHANGES:
         raise ArithmeticError(f"contacts opened and closed more than {MOST_CHANGES} times")
     z = np.array([2 * (rows[:, 0] * rows[:, 2] - rows[:, 3] * rows[:, 1]),
@@ -78,6 +82,22 @@ def integrate(top, state, friction, times, edge=None, k=1e6, damping=7.0, eps=1e
     touching = tuple((float(t), int(bits)) for t, bits in changes[:count])
     return Motion(times, np.arctan2(across, z[2]), omega.T, rows[:, 7:10], loads,
                   kinetic + rows[:, 9] - (1 - top.a), touching)  # fmt: skip
+
+
+def _summed(columns=2000):
+    """Force and torque of a patch of radius 1 with load 1 and friction 1, (columns + 1, 2): it slips by cos(x) and
+    turns by sin(x), for x from 0 to pi/2; pressure (3/2 pi)(1 - r^2)^1/2."""
+    r, weight = (half / 2 for half in np.polynomial.legendre.leggauss(60))
+    angle = 2 * np.pi * (np.arange(90) + 0.5) / 90
+    r, angle = np.meshgrid(r + 0.5, angle, indexing="ij")
+    load = 1.5 / np.pi * np.sqrt(1 - r * r) * r * weight[:, None] * 2 * np.pi / 90
+    found = []
+    for x in np.linspace(0, np.pi / 2, columns + 1):
+        along, across = np.cos(x) - np.sin(x) * r * np.sin(angle), np.sin(x) * r * np.cos(angle)
+        speed = np.hypot(along, across) + 1e-300
+        turns = r * (across * np.cos(angle) - along * np.sin(angle))
+        found.append([(load * along / speed).sum(), (load * turns / speed).sum()])
+    return np.array(found)
 
 
 def _start(top, state, edge):
@@ -94,9 +114,9 @@ def _start(top, state, edge):
 
 
 @njit(cache=True, error_model="numpy")
-def _rates(y, body, viscous, dy, out):
+def _rates(y, body, viscous, summed, dy, out):
     """dy/dt into dy; out: loads of ball and stem, and 1/time of the quickest thing that happens."""
-    a, I1, I3, b, h, q_stem, m_ball, m_stem, k, damping, mu, eps = body
+    a, I1, I3, b, h, q_stem, m_ball, m_stem, k, damping, mu, eps, radius = body
     qx, qy, qz, qw = y[0], y[1], y[2], y[3]
     # the body's axes in space, columns of the matrix of q
     xx, xy, xz = 1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + qw * qz), 2 * (qx * qz - qw * qy)
@@ -123,10 +143,20 @@ def _rates(y, body, viscous, dy, out):
         N = k * m * depth - 2 * damping * sqrt(k) * m * uz
         if N <= 0.0:
             continue
-        push = mu if viscous else mu / sqrt(ux * ux + uy * uy + eps * eps)
+        u2, turn = ux * ux + uy * uy, 0.0
+        push = mu if viscous else mu / sqrt(u2 + eps * eps)
+        if radius > 0.0:
+            rim = radius * wz
+            x = atan2(abs(rim), sqrt(u2)) / (pi / 2) * (len(summed) - 1)
+            j = min(int(x), len(summed) - 2)
+            force, torque = summed[j] + (x - j) * (summed[j + 1] - summed[j])
+            speed = sqrt(u2 + rim * rim)
+            slow = speed / sqrt(speed * speed + eps * eps)
+            push = mu * force * slow / max(sqrt(u2), 1e-12)
+            turn = -radius * mu * N * torque * slow * (1.0 if rim > 0 else -1.0)
         fx, fy = -N * push * ux, -N * push * uy
         Fx, Fy, Fz = Fx + fx, Fy + fy, Fz + N
-        Mx, My, Mz = Mx + cy * N - cz * fy, My + cz * fx - cx * N, Mz + cx * fy - cy * fx
+        Mx, My, Mz = Mx + cy * N - cz * fy, My + cz * fx - cx * N, Mz + cx * fy - cy * fx + turn
         out[i] = N
         quick = max(quick, N * push / m)
     out[2] = quick
@@ -148,14 +178,14 @@ def _moved(y, step, dy, out):
 
 
 @njit(cache=True, error_model="numpy")
-def _follow(y, body, viscous, times, share):
+def _follow(y, body, viscous, summed, times, share):
     rows, loads, changes = np.empty((len(times), 13)), np.empty((len(times), 2)), np.empty((MOST_CHANGES + 1, 2))
     d1, d2, d3, d4, at = np.empty(13), np.empty(13), np.empty(13), np.empty(13), np.empty(13)
     out, spare = np.zeros(3), np.zeros(3)
     t, count, before = times[0], 0, -1
     for n in range(len(times)):
         while True:
-            _rates(y, body, viscous, d1, out)
+            _rates(y, body, viscous, summed, d1, out)
             bits = (1 if out[0] > 0 else 0) + (2 if out[1] > 0 else 0)
             if bits != before and count <= MOST_CHANGES:
                 changes[count, 0], changes[count, 1] = t, bits
@@ -165,11 +195,11 @@ def _follow(y, body, viscous, times, share):
             left = times[n] - t
             step = min(share / out[2], left)
             _moved(y, step / 2, d1, at)
-            _rates(at, body, viscous, d2, spare)
+            _rates(at, body, viscous, summed, d2, spare)
             _moved(y, step / 2, d2, at)
-            _rates(at, body, viscous, d3, spare)
+            _rates(at, body, viscous, summed, d3, spare)
             _moved(y, step, d3, at)
-            _rates(at, body, viscous, d4, spare)
+            _rates(at, body, viscous, summed, d4, spare)
             for i in range(13):
                 y[i] += step / 6 * (d1[i] + 2 * (d2[i] + d3[i]) + d4[i])
             size = 1 / sqrt(y[0] ** 2 + y[1] ** 2 + y[2] ** 2 + y[3] ** 2)

@@ -46,9 +46,11 @@ def stands_inverted(run, sure):
 
 
 def stands_upright(run, sure):
-    """Below 5 degrees, on the ball alone, and spinning; if not sure, moments off the ball do not count."""
-    others = [(t0, t1) for t0, t1, what in run.carried if what != "ball" and (sure or t1 - t0 >= SHORT)]
+    """Below 5 degrees, on the ball alone, and spinning; moments without these do not count."""
+    near = -run.step if sure else run.step  # by so much a moment may seem to be shorter or longer
+    others = [(t0, t1) for t0, t1, what in run.carried if what != "ball"]
     others += spells(run.t, 0.5 - np.abs(run.spin)) if len(run.t) > 1 else []
+    others = [(t0, t1) for t0, t1 in others if t1 - t0 >= SHORT + near]
     upright = minus(lasting(run.t, 5 - run.tilt), others)
     return [(s, e) for s, e in upright if e - s >= STANDING[1] - (0 if sure else 1e-9)]
 
@@ -57,25 +59,25 @@ def over(run, sure):
     """It passes from one side to the other."""
     t, tilt, found = run.t, run.tilt, []
     beyond = lasting(t, tilt - 120)
-    for s, e in lasting(t, tilt - 90) + ([] if sure else spells(t, tilt - 90)):
+    for s, e in lasting(t, tilt - 90):
         inside = [(max(s, b0), min(e, b1)) for b0, b1 in beyond if b1 > s and b0 < e]
-        time = [b1 - b0 for b0, b1 in inside] or [0]
-        long = max(time) >= 0.5 if sure else sum(time) >= 0.5 - 1e-9
-        if not long or (s == run.start and tilt[0] > 120) or (e - s < 1 and e < run.end):
+        if (
+            max((b1 - b0 for b0, b1 in inside), default=0) < 0.5 - (0 if sure else 1e-9)
+            or (s == run.start and tilt[0] > 120)
+            or (e - s < 1 and e < run.end)
+        ):
             continue
         grid, values = run.between(s, e)
         near = first(grid, values - (np.max(values) - 5), s)
         stands = [b for b, _ in stands_on_stem(run, False) + stands_inverted(run, False) if b > s]
-        found.append((_begins(run, s, sure), min([near, *stands])))
+        found.append((_begins(run, s), min([near, *stands])))
     return found
 
 
-def _begins(run, s, sure):
-    """When it passed 90 degrees for the first time since it was at 80 or less; if it never was, not surely before s."""
-    low = max((e for _, e in spells(run.t, 80 - run.tilt) if e <= s), default=None)
-    if low is None and sure:
-        return s
-    return min([b for b, _ in spells(run.t, run.tilt - 90) if (low or run.start) <= b <= s], default=s)
+def _begins(run, s):
+    """When it passed 90 degrees for the first time since it was at 80 or less, or in the run."""
+    low = max((e for _, e in spells(run.t, 80 - run.tilt) if e <= s), default=run.start)
+    return min([b for b, _ in spells(run.t, run.tilt - 90) if low <= b <= s], default=s)
 
 
 def first(t, excess, since):
@@ -121,15 +123,12 @@ def tips_back(run, sure):
     """The opposite of over."""
     t, tilt, found = run.t, run.tilt, []
     beyond = lasting(t, tilt - 120)
-    for s, e in lasting(t, 90 - tilt) + ([] if sure else spells(t, 90 - tilt)):
+    for s, e in lasting(t, 90 - tilt):
         before = [(b0, b1) for b0, b1 in beyond if b1 <= s]
-        if not before or (e - s < 1 and e < run.end):
-            continue
-        long = [b1 - b0 >= 0.5 - (not sure) * 1e-9 for b0, b1 in before]
-        if not (long[-1] if sure else any(long)):
+        if not before or (e - s < 1 and e < run.end) or before[-1][1] - before[-1][0] < 0.5 - (not sure) * 1e-9:
             continue
         left = max(b1 for _, b1 in spells(t, tilt - 120) if b1 <= s)
-        if found and left <= found[-1][0] and sure:
+        if found and left <= found[-1][0]:
             continue
         grid, values = run.between(s, e)
         found.append((left, first(grid, np.min(values) + 5 - values, s)))

@@ -7,6 +7,7 @@ from story_samples import Phase, comings_back, minus, sampled, spells
 
 LATER = "leans", "sinks", "swings", "nods", "rolls", "slides"
 """The kinds that divide what the others leave, with `rises`."""
+WHILE = 0.2  # s: a stem that is on the table for less does not leave it
 PIECE = 0.3  # s: a shorter piece belongs to its neighbour
 ORDER = (*FACTS, *LATER)
 SHARE = 0.1  # s: a shorter piece belongs to its neighbour whatever that is
@@ -120,23 +121,34 @@ def _at(run, s, e):
 
 
 def left(run):
-    """The pieces that the kinds before `leans` leave."""
-    taken = [(one.t0, one.t1) for one in run.phases if one.kind in FACTS]
-    return [piece for piece in minus([(run.start, run.end)], taken) if piece[1] - piece[0] > run.slack]
+    """The pieces that the kinds before `leans` leave, cut at the divisions."""
+    taken = [(one.t0, one.t1) for one in run.phases if one.kind in FACTS and not _only_swings(run, one)]
+    cuts = [(at, at) for at in divisions(run)]
+    return [piece for piece in minus([(run.start, run.end)], taken + cuts) if piece[1] - piece[0] > run.slack]
+
+
+def _only_swings(run, phase):
+    """Does it rise only as a part of a piece whose tilt swings?"""
+    some = minus([(phase.t0, phase.t1)], facts(run, "rises", False))
+    return phase.kind == "rises" and _size(some) > 0.5 * (phase.t1 - phase.t0)
 
 
 def _within(run, piece):
     """The phases of the later kinds in a piece, unless they are too short to have a kind of their own."""
     return [
         one for one in run.phases
-        if one.kind in LATER and one.t0 < piece[1] and one.t1 > piece[0] and one.t1 - one.t0 > 0.1 + run.slack
+        if one.kind in LATER and one.t0 < piece[1] - run.slack and one.t1 > piece[0] + run.slack
+        and one.t1 - one.t0 > PIECE
     ]  # fmt: skip
 
 
 def divisions(run):
     """[when its stem leaves the table for good, when it begins to roll for good], of those that happen."""
-    on_stem = [to for _, to, what in run.carried if what in ("stem", "both")]
-    rolling = [s for s, e in sampled(run.t, run.regime == "roll") if e == run.end and s > run.start]
+    stem = [(since, to) for since, to, what in run.carried if what in ("stem", "both")]
+    leaves = stem and run.carried[-1][2] == "ball" and stem[-1][1] - stem[0][0] > WHILE
+    on_stem = [stem[-1][1]] if leaves else []
+    spells = sampled(run.t, run.regime == "roll")
+    rolling = [max(s, run.carried[-1][0]) for s, e in spells if e == run.end and s > run.start]
     return [at for at in [*on_stem[-1:], *rolling] if run.start < at < run.end]
 
 
@@ -179,7 +191,7 @@ def _large(run, phase, piece):
 def _swings(run, phase, piece):
     yield from _large(run, phase, piece)
     widened = max(piece[0], phase.t0 - PIECE), min(piece[1], phase.t1 + PIECE)
-    if comings_back(run.between(*widened)[1])[1] < 2:
+    if comings_back(run.between(*widened)[1])[0] < 2:
         yield "false swings", f"{_text(phase)}: it comes back less than twice"
     if _surely(run, phase, piece, False):
         yield "false swings", f"{_text(phase)}: it sinks"
@@ -222,7 +234,8 @@ def _sinks(run, phase, piece):
 
 def _slides(run, phase, piece):
     yield from _large(run, phase, piece)
-    rolls = np.all(run.regime[run.inside(phase.t0 + run.slack, phase.t1 - run.slack)] == "roll")
+    most = 0.0 if phase.kind == "slides" else run.slack  # one sample that slips is enough
+    rolls = np.all(run.regime[run.inside(phase.t0 + most, phase.t1 - most)] == "roll")
     if rolls != (phase.kind == "rolls"):
         yield f"false {phase.kind}", f"{_text(phase)}: it {'rolls' if rolls else 'does not roll'} in every sample"
     if comings_back(run.between(phase.t0, phase.t1)[1])[0] >= 2:

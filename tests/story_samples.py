@@ -106,7 +106,9 @@ class Run:
         if self.table == "ice":
             return self.start
         (slips,) = np.nonzero(self.regime != "roll")
-        return float(self.t[min(slips[-1] + 1, len(self.t) - 1)]) if len(slips) else self.start
+        return (
+            max(float(self.t[min(slips[-1] + 1, len(self.t) - 1)]), self.carried[-1][0]) if len(slips) else self.start
+        )
 
     def between(self, t0, t1):
         """Times and tilts from t0 to t1, both ends interpolated."""

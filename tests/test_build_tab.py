@@ -12,8 +12,9 @@ from app.model.build.dimensions import FAMILIES, INSIDES, changed, sentence, val
 from app.model.build.inside import filled, inside
 from app.model.build.verdict import Verdict, verdict
 from app.model.explorer import Explorer
-from app.model.lab.run import TooLong, shape_of
+from app.model.run import TooLong
 from app.model.runs import Full, Runs, Stopped
+from app.model.setup import shape_of
 from app.tabs.build.build import KNOBS, Build
 from app.tabs.build.verdict import VerdictWords
 from tippe_core import (

@@ -336,7 +336,7 @@ from app.model.lesson import lesson
 from app.model.explorer import Explorer
 from app.model.families.known_tops import known_tops
 from app.model.planes.planes import Planes
-from app.model.planes.picture import LAWS
+from app.model.setup import LAWS
 explorer = Explorer()
 for step in lesson.STEPS:
     step.answer(lesson.planned(step, explorer.scene))

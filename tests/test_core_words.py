@@ -9,8 +9,8 @@ from house import builder_of
 
 from app.model.build.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer
+from app.model.motion import THROWN
 from app.model.planes.planes import PRESETS as STARTS
-from app.model.planes.run import THROWN
 from app.tabs.planes.words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide

@@ -9,7 +9,7 @@ import pytest
 import app.model.bodies
 import app.model.explorer
 import app.model.frames
-import app.model.roll.region
+import app.model.region
 import app.model.scene
 from app.model.explorer import Explorer
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP

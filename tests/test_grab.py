@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from visiting import COLUMN, IN_SIGHT, PIXEL, WHOLE, Visit, wait
 
-from app.model.roll.region import least_energy
+from app.model.region import least_energy
 from app.model.scene import solve
 from tippe_core import Constants, Top, roll, tielines, turning_points
 

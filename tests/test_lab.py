@@ -6,11 +6,12 @@ import pytest
 
 from app.model import arrival
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
+from app.model.keeps import KINDS, kinds
 from app.model.lab import ends, run
-from app.model.lab.keeps import KINDS, kinds
 from app.model.lab.lab import Lab, scene_of
-from app.model.lab.life import FAR, LIFE, SECONDS, lived
-from app.model.lab.run import TABLES, TOYS, motion_on, start_of, whole_on
+from app.model.life import FAR, LIFE, SECONDS, lived
+from app.model.run import motion_on, start_of, whole_on
+from app.model.setup import TABLES, TOYS
 from app.model.story import first_times, story
 from tippe_core import Contensou, State, slide, slide_many
 

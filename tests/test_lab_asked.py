@@ -5,13 +5,14 @@ from queue import Queue
 import numpy as np
 import pytest
 
+from app.model import life
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
-from app.model.lab import life
 from app.model.lab.allowed import LIMITS
 from app.model.lab.ends import SPINS, Ends
 from app.model.lab.lab import Lab
-from app.model.lab.run import PATCH, TOYS, whole_on
+from app.model.run import whole_on
 from app.model.runs import Runs
+from app.model.setup import PATCH, TOYS
 from app.model.story import first_times, story
 from tippe_core import Contensou
 

@@ -9,7 +9,7 @@ from lab_page import TIME, TOPS, UNIT, arrival, come, entry, line, put
 from playwright.sync_api import expect
 from visiting import is_seen
 
-from app.model.lab.run import start_of
+from app.model.run import start_of
 from tippe_core import Constants, grip
 
 pytestmark = pytest.mark.served

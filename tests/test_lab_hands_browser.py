@@ -11,7 +11,7 @@ from PIL import Image
 from playwright.sync_api import expect
 
 from app.model.arrival import ARRIVAL
-from app.model.lab.run import whole_on
+from app.model.run import whole_on
 from app.share.parts import Photo
 
 pytestmark = pytest.mark.served

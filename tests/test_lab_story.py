@@ -16,10 +16,11 @@ from app.model.arrival import TILT, TOY
 from app.model.lab import ends, run
 from app.model.lab.ends import SPINS, ends_of, mixed
 from app.model.lab.lab import scene_of
-from app.model.lab.life import SECONDS
-from app.model.lab.run import TABLES, TOYS, motion_on, whole_on
+from app.model.life import SECONDS
 from app.model.regimes import ENDS
+from app.model.run import motion_on, whole_on
 from app.model.runs import Stopped
+from app.model.setup import TABLES, TOYS
 from app.model.story import first_times, story
 from app.text import LANGUAGES, speaking
 from tippe_core import PRESETS, Contensou, State, TopError, slide

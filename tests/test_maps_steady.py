@@ -10,7 +10,7 @@ from app.model.maps.kept import SHIPPED, recall
 from app.model.maps.maps import Map
 from app.model.maps.rates import POINTS, REACH, powers
 from app.model.maps.solving import run
-from app.model.maps.steady import _brought, _life, at_place, bifurcation, fixed, launch, steady_lines
+from app.model.maps.steady import _brought, at_place, bifurcation, fixed, launch, life, steady_lines
 from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import of_life
 from app.tabs.maps.words import of_run
@@ -48,28 +48,28 @@ def test_runs_that_go_on_from_one_another_lie_there_too_and_a_point_takes_no_C_J
 def test_the_life_of_a_toy_is_that_of_its_run_looked_at_closely():
     """It stands where its tilt is beyond 170 degrees, and it slips where its contact moves."""
     cell = Map().at(28.6, 5.7)
-    life, time = _life(cell, None), cell.scales.time
+    found, time = life(cell, None), cell.scales.time
     t = np.linspace(0, 60 / time, 12_001)
     moved = slide(cell.top, cell.state, cell.friction, t, rtol=1e-6, edge=cell.edge)
     high, half = moved.theta > np.radians(170), round(0.5 / (60 / 12_000))  # samples in half a second
     stands = next(i for i in np.flatnonzero(high) if high[i : i + half].all())
     leaves = np.flatnonzero(high)[-1]
     slips = np.flatnonzero(np.linalg.norm(moved.slip, axis=1) > 1e-9)[-1]
-    assert (life.stands, life.leaves) == pytest.approx(
+    assert (found.stands, found.leaves) == pytest.approx(
         moved.t[[stands, leaves]] * time, abs=0.15
     )  # it has a sample every 0.1 s
-    assert life.stands < life.leaves < life.rolls < 60
-    assert life.rolls == pytest.approx(moved.t[slips] * time, abs=0.11)  # it has a sample every 0.1 s
-    said = of_life(SimpleNamespace(life=life, hysteresis=None))
+    assert found.stands < found.leaves < found.rolls < 60
+    assert found.rolls == pytest.approx(moved.t[slips] * time, abs=0.11)  # it has a sample every 0.1 s
+    said = of_life(SimpleNamespace(life=found, hysteresis=None))
     assert "and stands there last at" in said and "rolls without slipping" in said
 
 
 @pytest.mark.slow
 def test_what_stands_on_its_stem_at_the_end_does_not_come_off_it_there():
     """Without pivoting, nothing takes its spin."""
-    life = _life(Map(law="smoothed").at(40.0, 5.7), None)
-    assert np.isfinite(life.stands) and life.end > 170 and np.isnan(life.leaves) and np.isnan(life.rolls)
-    said = of_life(SimpleNamespace(life=life, hysteresis=None))
+    found = life(Map(law="smoothed").at(40.0, 5.7), None)
+    assert np.isfinite(found.stands) and found.end > 170 and np.isnan(found.leaves) and np.isnan(found.rolls)
+    said = of_life(SimpleNamespace(life=found, hysteresis=None))
     assert "is on it still after 60 s" in said and " last at" not in said and "rolls" not in said
 
 

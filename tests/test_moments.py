@@ -25,12 +25,12 @@ def toy():
 
 
 def told(picture, plane):
-    return moments(picture.motions[plane], picture.settings, plane)
+    return moments(picture.motions[plane])
 
 
 def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
     """Over at 0.98 s, its own spin zero there; the stem touches, it stands, falls, the ball touches, off its stem."""
-    found = told(toy, "sliding")
+    found = told(toy, "ordinary")
     assert [moment.seconds for moment in found] == sorted(moment.seconds for moment in found)
     times = {moment.word: moment.seconds for moment in found}
     for word, time in (
@@ -44,30 +44,30 @@ def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
     assert {1.37, 4.75, 5.57} <= by_contact
     assert found[0][:3] == (0.0, 0.0, "let go") and found[0].more.startswith("slips on its ball, 5.7°")
     over = next(moment for moment in found if "passes zero" in moment.word)
-    moved = toy.motions["sliding"].trajectory
+    moved = toy.motions["ordinary"].trajectory
     assert abs(np.interp(over.t, moved.t, moved.routh)) < 0.02 and "<i>K</i><sub>R</sub> \N{MINUS SIGN}0.0" in over.more
     with speaking("de"):
-        assert told(toy, "sliding")[0].word == "losgelassen"
+        assert told(toy, "ordinary")[0].word == "losgelassen"
 
 
 def test_what_only_rolls_or_glides_has_little_to_tell(toy):
-    assert [moment.word for plane in ("rough", "smooth") for moment in told(toy, plane)] == ["let go", "let go"]
-    assert moments(None, toy.settings, "rough") == ()
+    assert [moment.word for plane in ("rough", "ice") for moment in told(toy, plane)] == ["let go", "let go"]
+    assert moments(None) == ()
 
 
 def test_a_stem_that_chatters_is_told_in_few_lines():
     """The paper's top rattles on ball and stem."""
-    found = told(planes_of(Explorer()).picture, "sliding")
+    found = told(planes_of(Explorer()).picture, "ordinary")
     assert len(found) <= MOST and any("more until" in moment.word for moment in found)
 
 
 def test_friction_and_flight_are_set_only_where_there_are_any(toy):
-    view = ThreePlanes(dict(toy.inputs) | {"plane": "sliding"}, *(lambda *args, **inputs: None,) * 3,
+    view = ThreePlanes(dict(toy.inputs) | {"plane": "ordinary"}, *(lambda *args, **inputs: None,) * 3,
                        SimpleNamespace(busy=False, stop=None))  # fmt: skip
     view.show(toy)
     start = view._start
     idle = [start.switches["law"].view, start.switches["landing"].view, start.numbers["mu"], start.numbers["patch"]]
-    for plane, there in (("sliding", True), ("smooth", False), ("rough", False), ("compare", True)):
+    for plane, there in (("ordinary", True), ("ice", False), ("rough", False), ("three", True)):
         view.look(plane)
         assert {part.visible for part in idle} == {there}
         assert start.controls["spin"].view.visible and start.controls["seconds"].view.visible

@@ -280,7 +280,7 @@ def test_a_view_works_alone_and_shows_the_last_scene_whatever_came_before(alone,
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("plane", ["sliding", "rough", "compare"])
+@pytest.mark.parametrize("plane", ["ordinary", "rough", "three"])
 def test_the_three_planes_work_alone(alone, plane):
     work = SimpleNamespace(busy=False, elapsed=0.0, share=1.0, stop=lambda: None)
 

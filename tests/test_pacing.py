@@ -6,7 +6,7 @@ import pytest
 import app.model.bodies
 import app.model.explorer
 import app.model.frames
-import app.model.roll.region
+import app.model.region
 import app.model.scene
 from app.model.explorer import Explorer
 from app.widgets.controls import Controls
@@ -83,7 +83,7 @@ def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
 def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
     """From 0 to P = 8.36508, where the paper draws it, and with half a unit of room beside a K_J outside."""
     for K_J in (-12.3, -3.4, 0.0, 4.0, 8.3, 9.4, 9.6, 30.2):
-        low, high = app.model.roll.region.K_J_range(Top.paper(), K_J, 10.0, upper)
+        low, high = app.model.region.K_J_range(Top.paper(), K_J, 10.0, upper)
         assert low <= 0 and high >= 8.36508 and low <= K_J <= high
         assert upper or low < -8.708  # the inverted pole's
         if K_J < (0 if upper else -10.9):
@@ -93,8 +93,8 @@ def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
 
 
 def test_a_top_without_spin_has_a_plane_all_the_same():
-    assert app.model.roll.region.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
-    assert app.model.roll.region.K_J_range(Top.paper(), 5.0, 0.0, True) == (-1.0, 6.0)
+    assert app.model.region.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
+    assert app.model.region.K_J_range(Top.paper(), 5.0, 0.0, True) == (-1.0, 6.0)
 
 
 def test_the_curve_of_the_energy_goes_past_both_turning_points(explorer):

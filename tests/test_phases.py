@@ -9,8 +9,8 @@ import pytest
 from said import faults, link, starts
 
 from app.model import tell
-from app.model.lab.run import motion_on, whole_on
-from app.model.phases import KINDS, Samples, phases
+from app.model.phases import KINDS, Samples, comes_back, phases
+from app.model.run import motion_on, whole_on
 from app.model.story import story
 from app.text import LANGUAGES, listed
 
@@ -79,6 +79,33 @@ def test_an_ordinary_top_that_falls_and_one_that_is_set_up():
     assert falls[1][1:] == pytest.approx((4.0, 4.5), abs=0.1)
     rises = kinds(T, np.interp(T, [0, 6, 10], [45, 2, 2]), a=-2.0)
     assert [kind for kind, *_ in rises] == ["rises", "stands-upright"]
+
+
+def test_a_hop_of_a_millisecond_does_not_end_a_stand():
+    carried = np.where((T > 4) & (T < 4.01), "none", "ball")
+    assert kinds(T, T * 0 + 3, carried=carried) == [("stands-upright", 0, 10)]
+    carried = np.where((T > 4) & (T < 4.2), "none", "ball")
+    assert [kind for kind, *_ in kinds(T, T * 0 + 3, carried=carried)] == ["stands-upright", "nods", "stands-upright"]
+
+
+def test_it_tips_back_once_however_often_it_comes_to_lie_below_90():
+    tilt = np.interp(T, [0, 2, 3, 5, 5.5, 6, 7, 10], [150, 150, 60, 60, 100, 100, 60, 60])
+    assert [kind for kind, *_ in kinds(T, tilt)].count("tips-back") == 1
+
+
+def test_two_spells_beyond_120_are_not_one():
+    """0.3 s and 0.3 s, with 0.3 s below in between."""
+    tilt = np.interp(T, [0, 3, 4, 4.3, 4.31, 4.6, 4.61, 4.9, 5, 10], [60, 60, 125, 125, 112, 112, 125, 125, 95, 95])
+    assert "over" not in [kind for kind, *_ in kinds(T, tilt)]
+
+
+@pytest.mark.parametrize(
+    ("knots", "times"),
+    [([0, 7, 0], 1), ([0, 4, -3, 4, -3], 2), ([0, 4, -3], 0), ([0, 3, -3, 3], 1), ([0, 20], 0), ([0, 4, 0, 4, 0], 0)],
+)
+def test_it_comes_back_by_five_degrees_after_as_many(knots, times):
+    tilt = 50 + np.interp(np.linspace(0, len(knots) - 1, 200), np.arange(len(knots)), np.array(knots, float))
+    assert comes_back(tilt) == times
 
 
 # ---- the arrival, and the cases in which the words were false ----

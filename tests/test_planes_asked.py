@@ -13,10 +13,11 @@ from house import builder_of, chosen, of, planes_of, ran
 from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
-from app.model.planes.picture import MOST_FRAMES, MOST_SECONDS
-from app.model.planes.run import for_reader, solve
+from app.model.motion import for_reader
+from app.model.planes.run import solve
 from app.model.planes.wells import wells
 from app.model.runs import Runs
+from app.model.setup import MOST_FRAMES, MOST_SECONDS
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.planes.words import fate
 from app.text import speaking
@@ -57,19 +58,19 @@ def test_a_start_by_constants_that_is_refused_is_answered_beside_the_constants(e
 @pytest.mark.slow
 def test_a_start_past_the_touch_is_refused_for_that_and_not_for_its_nutation():
     picture = solve(of(PAPERS, spin=0.0, tilt=179.99, seconds=0.1))
-    assert "below the table" in fate(picture, "smooth") and "a little" not in fate(picture, "smooth")
+    assert "below the table" in fate(picture, "ice") and "a little" not in fate(picture, "ice")
 
 
 def test_a_run_that_can_go_no_further_shows_what_was_computed_and_says_why(usual, monkeypatch):
     pushed = State(2.6, 0.0, 0.0, 0.0, vx=0.0, vy=-1.0)
     picture, said = ran(usual, law="coulomb", mu=1.0, mu_s=1.0, rolling=pushed, seconds=0.5)
-    assert said.startswith("goes no further: 149.0° at 0 s") and "Painlevé’s limit" in said
+    assert said.startswith("It goes no further.") and "149.0° at 0 s" in said and "Painlevé’s limit" in said
     monkeypatch.setattr("tippe_core.motion.sliding.MOST_STEPS", 640)
     picture, said = ran(usual, spin=38.0, seconds=60.0)
-    motion = picture.motions["sliding"]
+    motion = picture.motions["ordinary"]
     last = motion.trajectory.events[-1][0] * picture.settings.scales.time
     assert not picture.messages and 0.1 < last < 59 and motion.t[-1] > motion.trajectory.t[-1]
-    assert f"At {last:.3g} s the computation stops: it has turned so often" in said
+    assert f"At {last:.2f} s it has turned so often" in said
     with speaking("de"):
         _, said = ran(usual, law="coulomb", mu=1.0, mu_s=1.0, rolling=pushed)
     assert "Grenze nach Painlevé" in said
@@ -184,7 +185,7 @@ def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(
 
 @pytest.mark.slow
 def test_a_place_on_the_map_keeps_I3(explorer, planes):
-    inputs = {"plane": "sliding", **planes.picture.inputs}
+    inputs = {"plane": "ordinary", **planes.picture.inputs}
     view = ThreePlanes(inputs, planes.ask, explorer.param.update, builder_of(explorer).choose, planes)
     view.show(planes.picture)
     view.pick(0.2, 0.9)
@@ -196,11 +197,11 @@ def test_a_place_on_the_map_keeps_I3(explorer, planes):
 def test_what_the_bead_has_left_stands_above_it(explorer, planes, law):
     """Where pivoting changes C_J too: V_J is the least energy at any C_J."""
     planes.ask(law=law, seconds=3.0)
-    _, bead = wells(planes.picture, "sliding")
+    _, bead = wells(planes.picture, "ordinary")
     inside = bead.which >= 0
     assert inside.sum() > 100 and np.all(bead.E[inside] >= bead.V[inside])
     # at first its own C_J is that of the well to a few parts in a thousand, and what is left is the energy over V_J
-    start = planes.picture.motions["sliding"].trajectory
+    start = planes.picture.motions["ordinary"].trajectory
     assert bead.E[0] - bead.V[0] == pytest.approx(
         start.energy[0] - jellett_potential(start.theta[0], start.top, start.jellett[0]), abs=1e-9)  # fmt: skip
 
@@ -214,7 +215,7 @@ def test_without_its_stem_the_ball_alone_is_drawn(explorer, planes):
 
 
 def test_a_run_that_no_session_waits_for_is_not_followed_for_ever(planes):
-    view = ThreePlanes({"plane": "sliding"} | planes.inputs, None, None, None, SimpleNamespace(busy=True))
+    view = ThreePlanes({"plane": "ordinary"} | planes.inputs, None, None, None, SimpleNamespace(busy=True))
 
     async def wait():
         with set_curdoc(Document()):

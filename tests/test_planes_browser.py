@@ -47,7 +47,7 @@ def the_first_look_says_that_only_sliding_turns_it_over(page, first):
     says(page, r"^rough: does not turn over: in rolling")
     says(page, r"^smooth: does not turn over")
     says(page, r"^sliding: leans on ball and stem: 118\.8° at 5 s; past 90° at 2\.\d+ s")
-    page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["sliding"].t))
+    page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["ordinary"].t))
     shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
     for values, motion in zip(shown, first.motions.values(), strict=True):
         theta = np.degrees(motion.trajectory.theta)
@@ -74,7 +74,7 @@ def three_tops_side_by_side_go_by_one_clock(page, first):
         arg=t * first.settings.scales.time,
     )
     bead = page.evaluate(COLUMN, ["planes-well", "E"])[0]
-    assert bead == pytest.approx([first.motions["sliding"].trajectory.energy[index]], abs=1e-4)
+    assert bead == pytest.approx([first.motions["ordinary"].trajectory.energy[index]], abs=1e-4)
     table = page.locator("table").first.inner_text()
     assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
 

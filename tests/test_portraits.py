@@ -65,4 +65,4 @@ def test_tops_and_tables_are_told_by_their_names():
     assert choices.tables("lab", "ordinary") == ("ordinary", [])
     chosen, known = choices.tables("roll", "ordinary")
     assert chosen == "rough" and {name for name, *_ in known} >= {"rough", "ordinary"}
-    assert choices.tables("three-planes", "smooth")[0] == "smooth"
+    assert choices.tables("three-planes", "ice")[0] == "ice"

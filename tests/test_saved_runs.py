@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from app.model.lab.run import motion_on, start_of, whole_on
+from app.model.run import motion_on, start_of, whole_on
 from app.share.saved_runs import NODS, Shown, caption, drawn, run_csv, run_glb, run_npz, run_print, run_python
 from tippe_core import glide, grip, roll
 

@@ -6,7 +6,7 @@ import pytest
 import app.model.bodies
 import app.model.explorer
 import app.model.frames
-import app.model.roll.region
+import app.model.region
 import app.model.scene
 from app.model.explorer import Explorer
 from app.model.regimes import ROLLS
@@ -146,7 +146,7 @@ def test_hover_knows_the_whole_plane(explorer):
 
 
 def test_a_plane_that_ends_at_a_whole_step_has_a_tieline_there():
-    plane = app.model.roll.region.plane(Top.paper(), 10.0, 0.5, True, "slip", 0.0, 12.0)
+    plane = app.model.region.plane(Top.paper(), 10.0, 0.5, True, "slip", 0.0, 12.0)
     assert plane.K_J[0] == 0 and plane.K_J[-1] == plane.hover_K_J[-1] == 12.0
 
 

@@ -13,11 +13,12 @@ from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
-from app.model.lab.run import TOYS, start_of
 from app.model.lesson.lesson import NAMES as STEP_NAMES
 from app.model.planes.picture import SET
 from app.model.planes.planes import Planes
+from app.model.run import start_of
 from app.model.runs import Runs
+from app.model.setup import TOYS
 from app.model.start import TABLES, Start, arrives, of_toy
 from app.page import page
 from app.page.house import House
@@ -127,8 +128,8 @@ def test_the_planes_do_what_the_lab_does(views):
 
 def test_the_table_goes_along(views):
     views.lab.ask(table="three")
-    assert views.go("three-planes").planes.plane == "compare"
-    assert views.start.table("ice") == "three-planes" and views.planes.plane == "smooth"
+    assert views.go("three-planes").planes.plane == "three"
+    assert views.start.table("ice") == "three-planes" and views.planes.plane == "ice"
     assert views.go("lab").lab.scene.table == "ice"
     assert views.go(None, "rough").room == "roll"
     assert views.go("lab").lab.scene.table == "rough"

@@ -7,7 +7,7 @@ from typing import Any
 
 import param
 
-from app.model.roll.region import PAPER, Upper
+from app.model.region import PAPER, Upper
 from app.model.scene import Scene, solve
 from app.model.start import Start, rolls
 from app.text import told

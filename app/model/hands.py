@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.model.roll.region import least_energy
+from app.model.region import least_energy
 from app.model.scene import Scene
 
 

@@ -95,10 +95,10 @@ def phases(run: Samples) -> tuple[Phase, ...]:
             found += [Phase(kind, *piece) for piece in pieces if kind != "rises" or _goes(run, piece) >= GOES]
     for piece in outside((first, last), [phase[1:] for phase in found]):
         for start, end in pairwise(
-            [piece[0], *(cut for cut in sorted(run.cuts) if piece[0] < cut < piece[1]), piece[1]]
+            [piece[0], *(cut for cut in sorted({*run.cuts}) if piece[0] < cut < piece[1]), piece[1]]
         ):
             found += _rest(run, (start, end))
-    return _joined(sorted(found, key=lambda phase: phase.start), run.cuts)
+    return _joined(sorted(found, key=lambda phase: phase.start), run)
 
 
 def _spans(run: Samples) -> Iterable[tuple[str, list[Span]]]:
@@ -170,11 +170,12 @@ def _beyond(t: Array, tilt: Array) -> list[Span]:
 
 def _back(t: Array, tilt: Array) -> list[Span]:
     """From BEYOND before each lasting spell below SIDE, if a lasting spell beyond ends there, to when it is THERE."""
-    found, high = [], _beyond(t, tilt)
+    found: list[Span] = []
+    high = _beyond(t, tilt)
     for start, end in _stays(t, SIDE - tilt):
         last = t[(t <= start) & (tilt >= BEYOND)][-1:]
         leaves = [spell[1] for spell in high if len(last) and spell[0] <= last[0] <= spell[1]]
-        if leaves:
+        if leaves and (not found or leaves[0] > found[-1][0]):
             inside = (t >= start) & (t <= end)
             there = inside & (tilt <= tilt[inside].min() + THERE)
             found.append((leaves[0], float(t[np.argmax(there)])))
@@ -264,13 +265,7 @@ def _rest(run: Samples, piece: Span) -> list[Phase]:
 
 def _swings(run: Samples, t: Array, tilt: Array) -> str:
     """The kind of a span in which the tilt changes by more than NODS: it comes back twice, or goes one way."""
-    turns, extreme, sign = 0, tilt[0], 0
-    for value in tilt:
-        if sign * (value - extreme) >= 0 and sign:
-            extreme = value
-        elif abs(value - extreme) > TURN:
-            turns, sign, extreme = turns + bool(sign), (1 if value > extreme else -1), value
-    if turns >= 2:
+    if comes_back(tilt) >= 2:
         return "swings"
     nearer = _goes(run, (float(t[0]), float(t[-1])))
     if abs(nearer) >= GOES and abs(tilt[-1] - tilt[0]) >= LEG:
@@ -279,34 +274,55 @@ def _swings(run: Samples, t: Array, tilt: Array) -> str:
     return "rolls" if run.rolls[inside].all() else "slides"
 
 
+def comes_back(tilt: Array) -> int:
+    """How often the tilt turns and goes TURN the other way, after it went as far this way."""
+    turns, low, high, sign = 0, tilt[0], tilt[0], 0
+    for value in tilt:
+        low, high = min(low, value), max(high, value)
+        if sign <= 0 and value - low >= TURN:
+            turns, sign, high = turns + bool(sign), 1, value
+        elif sign >= 0 and high - value >= TURN:
+            turns, sign, low = turns + bool(sign), -1, value
+    return turns
+
+
 def _until(span: Span, others: list[Span]) -> Span:
     """A span up to the first of the others that begins in it."""
     return span[0], min([span[1], *(start for start, _ in others if start > span[0])])
 
 
-def _joined(found: list[Phase], cuts: tuple[float, ...]) -> tuple[Phase, ...]:
+def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
     """The phases, without what is left over and SHORT: beginning with the shortest, it joins the longer of its
     neighbours that are left over too; if none is, the phase before it (or after it), if it is shorter than GAP or
-    that is a passage. Like joins like except at a cut."""
-    kept, tried = list(found), set[Phase]()
+    that is a passage. What only rolls or slides may swing with what joins it. Like joins like except at a cut."""
+    kept, tried = _alike(found, run.cuts), set[Phase]()
     while short := [phase for phase in kept if phase.kind in LEFT_OVER and _long(phase) < SHORT and phase not in tried]:
         phase = min(short, key=_long)
         tried.add(phase)
         i = kept.index(phase)
-        beside = [j for j in (i - 1, i + 1) if 0 <= j < len(kept) and max(phase.start, kept[j].start) not in cuts]
+        beside = [j for j in (i - 1, i + 1) if 0 <= j < len(kept) and max(phase.start, kept[j].start) not in run.cuts]
         left_over = [j for j in beside if kept[j].kind in LEFT_OVER]
         passing = i > 0 and kept[i - 1].kind in PASSAGES
         if left_over or (beside and _long(phase) < (SHORT if passing else GAP)):
             j = max(left_over, key=lambda j: _long(kept[j])) if left_over else beside[0]
             first, last = min(i, j), max(i, j)
-            kept[first : last + 1] = [Phase(kept[j].kind, kept[first].start, kept[last].end)]
+            joins = Phase(kept[j].kind, kept[first].start, kept[last].end)
+            if joins.kind in ("rolls", "slides"):
+                inside = (run.t >= joins.start) & (run.t <= joins.end)
+                joins = joins._replace(kind=_swings(run, run.t[inside], run.tilt[inside]))
+            kept = _alike([*kept[:first], joins, *kept[last + 1 :]], run.cuts)
+    return tuple(kept)
+
+
+def _alike(found: list[Phase], cuts: tuple[float, ...]) -> list[Phase]:
+    """The phases; neighbours of the same kind are one."""
     joined: list[Phase] = []
-    for phase in kept:
+    for phase in found:
         if joined and joined[-1].kind == phase.kind and phase.start not in cuts:
             joined[-1] = joined[-1]._replace(end=phase.end)
         else:
             joined.append(phase)
-    return tuple(joined)
+    return joined
 
 
 def _long(phase: Phase) -> float:

@@ -13,9 +13,9 @@ import numpy as np
 
 from app.model.bodies import body, fits, outline
 from app.model.frames import frame_times, in_space
+from app.model.marks import LARGEST, Marks, energy_marks
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
-from app.model.roll.marks import LARGEST, Marks, energy_marks
-from app.model.roll.region import MESH_COLUMNS, K_J_range, Plane, Upper, between, height, least_energy, plane
+from app.model.region import MESH_COLUMNS, K_J_range, Plane, Upper, between, height, least_energy, plane
 from app.text import say
 from tippe_core import (
     Constants,

@@ -13,14 +13,12 @@ import param
 
 from app.model import arrival
 from app.model.bodies import fits
-from app.model.lab.run import PATCH, TOYS, Toy, toy_of
-from app.model.planes.picture import LAWS, by_hand
+from app.model.setup import LAWS, PATCH, TOYS, Toy, by_hand, toy_of
+from app.model.setup import TABLES as EACH
 from tippe_core import BareSphere, Shape, State, Top, TopError, TruncatedSphere
 from tippe_core.paper.equations import rolling_velocity
 
-TABLES = ("ordinary", "rough", "ice", "three")
-PLANE = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth", "three": "compare"})
-"""{table: its name in the three planes}."""
+TABLES = (*EACH, "three")
 
 
 class Start(param.Parameterized):

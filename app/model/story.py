@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab.run import TableMotion, Watched
 from app.model.phases import SIDE, SPINS, Phase
 from app.model.regimes import WOULD_LIFT
+from app.model.run import TableMotion, Watched
 from app.text import listed, say
 from tippe_core import thresholds
 from tippe_core.types import Array, Number
@@ -25,6 +25,8 @@ TENTH = (0.05, 0.15)  # degrees
 SAME, STEADY = 0.05, 0.5  # the share that is not called a change; degrees within which a tilt is called steady
 SMALL, NEAR = 0.005, 10.0  # the share of its energy that is not worth a word; degrees
 AROUND = np.pi / 2  # rad: what goes round turns by more
+BALANCE = 1e-4  # degrees: what stays within it has not left its balance
+BACK = 3  # turns of the tilt: it has come back twice
 
 
 class Event(NamedTuple):
@@ -99,7 +101,9 @@ class _Told:
     def __init__(self, motion: TableMotion) -> None:
         self.motion, self.phases, self.a = motion, motion.phases, motion.start.top.a
         self.kinds = [phase.kind for phase in self.phases]
-        self.quiet = motion.table != "ordinary"
+        slides = motion.start.is_frictionless and not motion.trajectory.heat.any()
+        self.table = "ice" if slides and motion.table == "ordinary" else motion.table
+        self.quiet = self.table != "ordinary"
         self.curves = motion.curves.astype(float)
         self.turns = motion.start.turns
 
@@ -111,7 +115,7 @@ class _Told:
         why = " ".join(filter(None, [*self._whys(i, phase, code, numbers), *self._afterwards(i, phase, numbers)]))
         headline, short = (say(f"lab.stages.{code}.{name}", **numbers) for name in ("headline", "short"))
         if self.quiet and self._stays_low and code in ("nods", "leans", "rests", "swings", "upright"):
-            headline, short = (say(f"lab.{self.motion.table}.{name}") for name in ("headline", "short"))
+            headline, short = (say(f"lab.{self.table}.{name}") for name in ("headline", "short"))
         return Stage(phase.start, headline, why, short[:1].upper() + short[1:])
 
     # ---- which words ----
@@ -119,6 +123,8 @@ class _Told:
     def _code(self, i: int, phase: Phase) -> str:
         """The key of a phase's words: its kind, or a variant of it."""
         kind, cuts = phase.kind, self.motion.cuts
+        if phase.start == phase.end and kind in ("rolls", "slides"):
+            return "halts"  # it ends as it begins
         if phase.start == cuts.get("rolls") and kind in ("leans", "swings", "nods", "rolls"):
             return "grips"
         if phase.start == cuts.get("off") and kind in ("leans", "sinks", "swings", "nods"):
@@ -167,14 +173,17 @@ class _Told:
         """The sentences about a phase itself."""
         said = []
         if self.quiet and i == 0:
-            said.append(say(f"lab.{self.motion.table}.why"))
+            said.append(say(f"lab.{self.table}.why"))
         if code == "grips":
-            steady = numbers["most"] - numbers["least"] < STEADY
-            said.append(say(f"lab.stages.grips.{'steady' if steady else 'why'}", **numbers))
+            steady = f"{numbers['least']:.1f}" == f"{numbers['most']:.1f}"
+            how = "steady" if steady else "why" if self._turns(phase) >= BACK else "passes"
+            said.append(say(f"lab.stages.grips.{how}", **numbers))
         elif code in ("stem-spins", "inverted-spins", "stem-balances", "inverted-balances"):
             said.append(self._why_it_stands(i, phase))
         elif code == "upright" and not self.quiet:
-            said.append(self._why_upright(i, numbers))
+            rolls = self.motion.rolls_since
+            held = rolls < phase.end  # what holds it is no friction of what slips
+            said.append(say("lab.next.rolls", time=rolls) if held else self._why_upright(i, numbers))
         elif code == "rocks":
             never = self._stays_low and self.a > 0
             said.append(say(f"lab.stages.rocks.{'why' if never else 'past'}", **numbers))
@@ -213,6 +222,8 @@ class _Told:
         spin, needed = numbers["spin"], float(np.nan_to_num(change.spin)) * self.turns
         stable = change.stable == "always" or (change.stable == "above") == (spin > needed)
         stable = stable and change.stable != "never"
+        if not stable and np.ptp(self.motion.tilt) < BALANCE:
+            return say("lab.stages.upright.exact")
         if self.a > 0:
             low = "always" if change.stable == "always" else "low" if stable else "unstable"
             said.append(say(f"lab.stages.upright.{low}", needed=needed, **numbers))
@@ -259,8 +270,8 @@ class _Told:
             kind = "flat" if motion.ended == "stands upright" else self._stop
             return [say(f"lab.stopped.{kind}", **numbers | {"time": motion.ended_at})]
         if self._repeats(phase):
-            return [say("lab.next.forever")] if not self.quiet else [say(f"lab.{motion.table}.forever")]
-        said = [say("lab.next.cut", **numbers)] if motion.is_cut else []
+            return [say("lab.next.forever")] if not self.quiet else [say(f"lab.{self.table}.forever")]
+        said = [say("lab.next.cut", **numbers)] if motion.is_cut and phase.kind != "lies" else []
         if phase.kind in STANDS and numbers["last"] >= SPINS:
             return [say("lab.next.spins", **numbers), *said]
         return [*([say("lab.next.tilt", **numbers)] if phase.kind not in ("lies", "nods", "leans") else []), *said]
@@ -283,8 +294,11 @@ class _Told:
             return False
         if phase.kind == "lies" or (self.quiet and len(self.phases) > 1):
             return False
-        turns = np.count_nonzero(np.diff(np.sign(self.motion.trajectory.omega[here, 0])))
-        return bool(turns >= 3 or np.ptp(self.motion.tilt[here]) < STEADY)
+        return bool(self._turns(phase) >= BACK or np.ptp(self.motion.tilt[here]) < STEADY)
+
+    def _turns(self, phase: Phase) -> int:
+        """How often its tilt turns in a phase."""
+        return int(np.count_nonzero(np.diff(np.sign(self.motion.trajectory.omega[self._here(phase), 0]))))
 
     # ---- the numbers ----
 
@@ -297,7 +311,11 @@ class _Told:
         return slice(first, max(int(np.searchsorted(t, phase.end + 1e-9)), first + 1))
 
     def _at(self, t: float) -> Array:
-        return np.array([np.interp(t, self.curves[:, 0], column) for column in self.curves.T])
+        """A row of the curves at a time; tilt and spin from all samples."""
+        row = np.array([np.interp(t, self.curves[:, 0], column) for column in self.curves.T])
+        spin = self.turns * self.motion.trajectory.omega[:, 2]
+        row[[1, 5]] = [np.interp(t, self.motion.seconds, values) for values in (self.motion.tilt, spin)]
+        return row
 
     def _numbers(self, i: int, phase: Phase) -> dict[str, Number]:
         """All numbers that the words of a phase may quote."""
@@ -307,7 +325,7 @@ class _Told:
         upto = self.curves[(self.curves[:, 0] >= phase.start) & (self.curves[:, 0] <= ahead[0])]
         return {
             "time": phase.start, "seconds": float(motion.seconds[-1]), "long": phase.end - phase.start,
-            "from": float(first[2]), "end": float(last[2]), "least": float(tilt.min()), "most": float(tilt.max()),
+            "from": float(first[1]), "end": float(last[1]), "least": float(tilt.min()), "most": float(tilt.max()),
             "spin": abs(float(first[5])), "last": abs(float(last[5])), "low": float(start[2]),
             "high": float(upto[:, 2].max()) if len(upto) else float(first[2]),
             "start": float(start[3] + start[4] * (motion.table == "rough")), "left": float(last[3]),

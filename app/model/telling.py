@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from app.model.lab.keeps import KINDS, keeps, while_it_turns
+from app.model.keeps import KINDS, keeps, while_it_turns
 from app.model.lab.lab import LabScene
-from app.model.lab.run import TableMotion
+from app.model.run import TableMotion
 from app.model.story import story
 from app.text import listed, say, written
 

@@ -7,10 +7,10 @@ import panel_material_ui as pmui
 
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
-from app.model.lab.run import PATCH
 from app.model.planes.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
+from app.model.setup import PATCH
 from app.share.saved_runs import Shown
 from app.state import opened as room
 from app.state.keep import explorer_of, kept

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from app.model.phases import carried
-from app.model.planes.picture import Setup
+from app.model.setup import Setup
 from app.share import export, glb, prints
 from app.text import say
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, Trajectory
@@ -28,8 +28,6 @@ UNITS = {
 """{array of a Trajectory: (what it is, unit, its scale in SI)}."""
 ORDINARY, ROUGH, ICE = "ordinary", "rough", "ice"
 OF_ONE = "in units of M, R and g"
-PLANES = {"sliding": ORDINARY, "smooth": ICE}
-"""The names that the three planes have for two of the tables."""
 LONGEST = 60.0  # s: the longest animation
 NODS = 12  # how many nods are drawn of a motion that repeats them for ever
 
@@ -43,17 +41,12 @@ class Shown:
     setup: Setup
 
     @property
-    def name(self):
-        """The table's name: ordinary, rough or ice."""
-        return PLANES.get(self.table, self.table)
-
-    @property
     def parameters(self):
         """{name: (value, unit)} of its parameters, every number to the last digit."""
         top, scales = self.setup.top, self.setup.scales
-        law = (repr(self.setup.friction), OF_ONE) if self.name == ORDINARY else (self.name, "")
+        law = (repr(self.setup.friction), OF_ONE) if self.table == ORDINARY else (self.table, "")
         return {
-            "table": (self.name, ""), "friction": law, "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
+            "table": (self.table, ""), "friction": law, "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
             "I3": (top.I3, "MR^2"), "start": (repr(self.setup.state), OF_ONE), "R": (scales.R, "m"),
             "M": (scales.M, "kg"), "g": (scales.g, "m/s^2"),
         }  # fmt: skip
@@ -99,7 +92,7 @@ def run_glb(shown, slower):
     """A run as a glTF animation (bytes), this many times slower than in reality, but not longer than LONGEST."""
     seconds = shown.trajectory.t[-1] * shown.setup.scales.time
     slower = max(1.0, min(slower, LONGEST / seconds))
-    name = {ORDINARY: "on an ordinary table", ROUGH: "rolling", ICE: "on ice"}[shown.name]
+    name = {ORDINARY: "on an ordinary table", ROUGH: "rolling", ICE: "on ice"}[shown.table]
     return glb.animation_glb(shown, slower, shown.parameters, name)
 
 
@@ -129,7 +122,7 @@ def _first_nods(shown):
     """The number of frames of the first NODS nods if the motion has so many that all of them would be a black area;
     else 0."""
     turns = np.flatnonzero(np.diff(np.sign(np.diff(shown.trajectory.theta)))) + 2
-    return 0 if shown.name == ORDINARY or len(turns) <= 4 * NODS else int(turns[2 * NODS])
+    return 0 if shown.table == ORDINARY or len(turns) <= 4 * NODS else int(turns[2 * NODS])
 
 
 def caption(shown):
@@ -146,8 +139,8 @@ def caption(shown):
 def _law(shown):
     """The friction law in words, lengths in mm and speeds in cm/s."""
     law, scales = shown.setup.friction, shown.setup.scales
-    if shown.name != ORDINARY:
-        return say(f"share.laws.{shown.name}")
+    if shown.table != ORDINARY:
+        return say(f"share.laws.{shown.table}")
     match law:
         case Contensou(mu=mu, radius=radius):
             return say("share.laws.contact", mu=mu, patch=1e3 * scales.R * radius)
@@ -169,9 +162,9 @@ def run_python(shown):
         ROUGH: "roll(top, None, t, grip(top, state)[0])",
         ICE: "glide(top, state, t)",
         ORDINARY: f"slide(top, state, {setup.friction!r}, t, landing={setup.landing!r}, edge={edge!r})",
-    }[shown.name]
-    law = f"{type(setup.friction).__name__}, " * (shown.name == ORDINARY)
-    uses = {ROUGH: "grip, roll", ICE: "glide", ORDINARY: "slide"}[shown.name]
+    }[shown.table]
+    law = f"{type(setup.friction).__name__}, " * (shown.table == ORDINARY)
+    uses = {ROUGH: "grip, roll", ICE: "glide", ORDINARY: "slide"}[shown.table]
     return f"""\
 import matplotlib.pyplot as plt
 import numpy as np

@@ -12,8 +12,8 @@ from urllib.parse import quote
 from app.model.lesson.lesson import BEFORE
 from app.model.lesson.lesson import NAMES as STEPS
 from app.model.maps.maps import COLOURS_BY
-from app.model.planes.picture import LAWS
-from app.model.roll.region import PAPER
+from app.model.region import PAPER
+from app.model.setup import LAWS
 from app.model.start import TABLES
 from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf
 from app.state.map_text import MapText

@@ -1,15 +1,14 @@
 """Links of version 1, in which each view of the Lab had its own top, start and table: they still open what they opened,
 and are rewritten with today's names."""
 
-from app.model.lab.run import TOYS
-from app.model.start import PLANE
+from app.model.setup import TOYS
 from app.state.codecs import Body, Number
 from app.state.names import TAB
 
 LAB = {"turns": "spin", "lean": "tilt", "rub": "mu_k"}  # of a start by hand in the Lab
 MOTION = "by", "KJ", "KR", "e", "E", "th", "thd", "w2", "w3", "phi", "psi"
 HAND = "spin", "tilt", "slip"  # of a start by hand on the three planes
-TABLE = {plane: table for table, plane in PLANE.items()}
+TABLE = {"sliding": "ordinary", "smooth": "ice", "compare": "three"}
 ONLY_THEN = {*LAB, "toy", "plane", "start", "mu_smooth", "mu_stick"}
 MU_S = ".4"  # the default of Coulomb's law on the three planes in version 1
 

@@ -1,8 +1,6 @@
 """The one start that all rooms share: which view-model computes it in a room, and which room shows its table at the
 level "Research". Going to a room sets nothing of the start."""
 
-from app.model.start import PLANE
-
 TOY, ROLLING, PLANES = "lab", "roll", "three-planes"
 
 
@@ -53,6 +51,6 @@ class OneStart:
         picture = self._planes.picture if self._planes else None
         if picture is None:
             return []
-        looked_at = PLANE[self._explorer.table]
+        looked_at = self._explorer.table
         return [(plane, motion, picture.settings) for plane, motion in picture.motions.items()
-                if motion and looked_at in (plane, "compare")]  # fmt: skip
+                if motion and looked_at in (plane, "three")]  # fmt: skip

@@ -1,6 +1,6 @@
 """The choices in the head of the page besides the tabs: the top, the table, the language, and Share."""
 
-from app.model.lab.run import TOYS
+from app.model.setup import TOYS
 from app.model.start import TABLES
 from app.state import asked
 from app.state.start import PLANES, ROLLING

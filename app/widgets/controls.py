@@ -10,7 +10,7 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.regimes import NAMES
-from app.model.roll.region import PAPER
+from app.model.region import PAPER
 from app.state import asked
 from app.text import listed, say, written
 from app.widgets.cards import NOTES, PLAIN, alert, card, note, section

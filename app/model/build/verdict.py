@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from app.model.arrival import MU, SPIN, TABLE, TILT
-from app.model.lab.run import TooLong, whole_on
+from app.model.run import TooLong, whole_on
 from app.model.story import first_times
 from app.text import say, told
 from tippe_core import Shape, TopError

@@ -5,7 +5,7 @@ import math
 from types import MappingProxyType
 from typing import TypeAlias
 
-from app.model.lab.run import TABLES, TOYS
+from app.model.setup import TABLES, TOYS
 from app.text import say
 from tippe_core import Shape
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
-from app.model.lab.run import PATCH, Start, Toy, start_of
+from app.model.run import Start, start_of
+from app.model.setup import PATCH, Toy
 from app.text import say
 from tippe_core import Many, State, States, Top, slide_many, thresholds
 from tippe_core.types import Array, Bools

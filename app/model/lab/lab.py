@@ -13,21 +13,12 @@ from typing import Any, TypeAlias
 import param
 
 from app.model.arrival import TABLE, TILT
+from app.model.keeps import keeps, while_it_turns
 from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
 from app.model.lab.ends import Ends, Key, ends_once, known_ends
-from app.model.lab.keeps import keeps, while_it_turns
-from app.model.lab.run import (
-    PATCH,
-    SHIPS,
-    TABLES,
-    TableMotion,
-    TooLong,
-    Toy,
-    motion_on,
-    start_of,
-    whole_on,
-)
+from app.model.run import SHIPS, TableMotion, TooLong, motion_on, start_of, whole_on
 from app.model.runs import LATER, Result, Run, Runs, Stopped
+from app.model.setup import PATCH, TABLES, Toy
 from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, of_all, story
 from app.text import say, told
@@ -117,6 +108,10 @@ def scene_of(
             refused[each] = _sentence(error)
         except TooLong:
             refused[each] = say("lab.refused.too-long")
+        except (ValueError, ArithmeticError):  # of the solvers without friction, where digits are lost
+            if each == "ordinary":
+                raise
+            refused[each] = say("planes.run.extreme")
     found = {name: motion for name, motion in motions.items() if motion is not None}
     start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
     return LabScene(

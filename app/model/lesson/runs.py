@@ -12,11 +12,12 @@ import numpy as np
 from app.model.arrival import MU, SPIN, TILT, TOY
 from app.model.bodies import outline
 from app.model.frames import in_space
-from app.model.lab.run import TOYS, Start, TableMotion, computed, motion_on, moved, start_of
 from app.model.lesson.parts import K_R
 from app.model.lesson.parts import TILT as THROWN_TILT
 from app.model.regimes import OF_CORE
+from app.model.run import Start, TableMotion, computed, motion_on, moved, start_of
 from app.model.scene import Scene
+from app.model.setup import TOYS
 from tippe_core import Constants, Contensou, Coulomb, SmoothedCoulomb, State, Top, Trajectory, omega3, roll, slide
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Indices

@@ -6,9 +6,9 @@ No answers are stored: they are computed from the run that is shown.
 import numpy as np
 
 from app.model.colours import COLOURS
-from app.model.lab.run import TableMotion
 from app.model.lesson.parts import Answer, Choice, Curve, Picture, Point, Step
 from app.model.lesson.runs import on_ball, on_table, own, proof, slipped
+from app.model.run import TableMotion
 from app.model.scene import Scene
 from app.model.story import first_times
 from tippe_core.types import Array
@@ -107,10 +107,9 @@ def contradiction(scene: Scene) -> Answer:
 def yours(scene: Scene) -> Answer:
     """Whether the page's own top turns over while it is watched."""
     motion = own(scene)
-    over, rows = first_times(motion).get("over", np.nan), motion.curves
-    tilt = rows[rows[:, 0] <= YOURS.end, 1]
-    numbers = {"over": over, "low": tilt.min(), "high": tilt.max(), "end": tilt[-1],
-               "seconds": min(YOURS.end, rows[-1, 0])}  # fmt: skip
+    over, seen = first_times(motion).get("over", np.nan), motion.seconds <= YOURS.end
+    tilt, seconds = motion.tilt[seen], float(motion.seconds[seen][-1])
+    numbers = {"over": over, "low": tilt.min(), "high": tilt.max(), "end": tilt[-1], "seconds": seconds}
     turned = bool(over <= YOURS.end)
     return Answer("over" if turned else "not", numbers, told="told_over" if turned else "told_not")
 

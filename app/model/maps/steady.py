@@ -159,7 +159,7 @@ def bifurcation(asked: Map, place: tuple[float, float], look: Look | None = None
     down, down_end = _sweep(own, x["tilt"], swept[::-1], look)
     lines = steady_lines(here.top, launch(here), low, high) if low >= 0 else ()
     return Bifurcation(lines=lines, spin=spin, times=times, theta=theta, swept=swept, up=up, down=down[::-1],
-                       up_end=up_end, down_end=down_end[::-1], life=_life(here, look))  # fmt: skip
+                       up_end=up_end, down_end=down_end[::-1], life=life(here, look))  # fmt: skip
 
 
 def _sweep(own: Map, tilt: float, spins: Array, look: Look | None) -> tuple[Array, Words]:
@@ -195,7 +195,7 @@ def _brought(state: States, cell: Cell) -> States | None:
     return state._replace(**{name: by * getattr(state, name) for name in names})
 
 
-def _life(here: Cell, look: Look | None) -> Life:
+def life(here: Cell, look: Look | None) -> Life:
     """The run at the bead for MOST_SECONDS."""
     time = here.scales.time
     times = MOST_SECONDS / time * np.linspace(0, 1, DRIFT) ** 2

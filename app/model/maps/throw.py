@@ -1,7 +1,7 @@
 """A place on a map as a start by hand in the Lab."""
 
-from app.model.lab.run import PATCH, TOYS
 from app.model.maps.maps import OWN, Map
+from app.model.setup import PATCH, TOYS
 
 CHANGED = {"a", "ratio", "R", "stem", "rounding"}
 

@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab.run import TABLES, Watched
+from app.model.motion import Motion
 from app.model.phases import carried
-from app.model.planes.picture import SHORT, Motion, Settings
+from app.model.planes.picture import SHORT
 from app.model.regimes import NAMES
+from app.model.run import TableMotion
 from app.model.story import happened
 from app.text import listed, say
 
@@ -16,7 +17,6 @@ OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")
 """Events of the story that are listed as those of its contacts."""
 MOST = 16
 ON = {"both": "both", "stem": "stem", "none": "air"}
-TABLE = {plane: table for table, plane in TABLES.items()}
 
 
 class Moment(NamedTuple):
@@ -28,18 +28,17 @@ class Moment(NamedTuple):
     more: str
 
 
-def moments(motion: Motion | None, settings: Settings, plane: str) -> tuple[Moment, ...]:
+def moments(motion: TableMotion | None) -> tuple[Moment, ...]:
     """The Moments of a motion, in the page's language; at most MOST of them, and the last one."""
     if motion is None:
         return ()
-    watched = Watched(**vars(motion), start=settings, table=TABLE[plane])
-    unit, words, part = settings.scales.time, listed("lab.events"), say(f"planes.parts.{settings.part}")
-    found = [(t, words[code][0].format(part=part)) for t, code in happened(watched) if code not in OF_CONTACTS]
+    unit, words, part = motion.start.scales.time, listed("lab.events"), say(f"planes.parts.{motion.start.part}")
+    found = [(t, words[code][0].format(part=part)) for t, code in happened(motion) if code not in OF_CONTACTS]
     found += _turns(motion, unit) + _touches(motion, unit, part)
     told = [(0.0, say("planes.moments.begins")), *sorted(each for each in found if each[0] > 0.0)]
     if len(told) > MOST:
         told = [*told[: MOST - 1], told[-1]]
-    return tuple(Moment(t / unit, t, word, _after(watched, t / unit, part)) for t, word in told)
+    return tuple(Moment(t / unit, t, word, _after(motion, t / unit, part)) for t, word in told)
 
 
 def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
@@ -71,7 +70,7 @@ def _touches(motion: Motion, unit: float, part: str) -> list[tuple[float, str]]:
     return found[:-1]
 
 
-def _after(motion: Watched, t: float, part: str) -> str:
+def _after(motion: TableMotion, t: float, part: str) -> str:
     """The state right after a time."""
     moved = motion.trajectory
     i = min(int(np.searchsorted(moved.t, t, side="right")), len(moved.t) - 1)

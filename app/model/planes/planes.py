@@ -14,7 +14,6 @@ from app.model.planes.refusal import Refusal, refused
 from app.model.planes.run import hits, nudged, solve
 from app.model.runs import LATER, Full, Result, Run, Runs, Stopped
 from app.model.scene import Scene
-from app.model.start import PLANE
 from app.text import say
 from tippe_core import (
     Scales,
@@ -92,8 +91,8 @@ class Planes(param.Parameterized):
 
     @property
     def plane(self) -> str:
-        """The plane that is shown: one of PLANES, or "compare"."""
-        return PLANE[self._start.table]
+        """The plane that is shown: one of TABLES, or "three"."""
+        return str(self._start.table)
 
     @property
     def inputs(self) -> dict[str, Any]:

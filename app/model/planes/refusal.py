@@ -5,8 +5,9 @@ from math import ceil, copysign, floor, log10
 from types import MappingProxyType
 from typing import Any
 
-from app.model.planes.picture import MOST_SECONDS, Settings
-from app.model.planes.run import for_reader
+from app.model.motion import for_reader
+from app.model.planes.picture import Settings
+from app.model.setup import MOST_SECONDS
 from app.text import told
 from tippe_core import TopError, strongest_friction
 

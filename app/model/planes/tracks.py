@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.planes.picture import Motion
+from app.model.motion import Motion
 from tippe_core import Scales
 from tippe_core.types import Array
 

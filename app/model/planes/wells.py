@@ -9,7 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.planes.picture import PLANES, SHORT, Motion, Picture
+from app.model.motion import Motion
+from app.model.planes.picture import SHORT, Picture
+from app.model.setup import TABLES
 from tippe_core import SteadyStates, Stretch, Top, jellett_potential, steady_states
 from tippe_core.types import Array, Bools, Indices
 
@@ -104,8 +106,8 @@ def well(top: Top, one: Interval, E: Array) -> Well:
 
 
 def wells(picture: Picture, plane: str) -> tuple[tuple[Well, ...], Path]:
-    """The wells of a plane (for "compare", of the sliding one), and the path of the bead through them."""
-    plane = plane if plane in PLANES else "sliding"
+    """The wells of a plane (for "three", of the sliding one), and the path of the bead through them."""
+    plane = plane if plane in TABLES else "ordinary"
     motion, found = picture.motions[plane], intervals(picture, plane)
     bead = path(motion, found)
     return tuple(well(picture.settings.top, one, bead.E[bead.which == k]) for k, one in enumerate(found)), bead

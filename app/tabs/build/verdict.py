@@ -8,8 +8,8 @@ from app.model.build.verdict import verdict
 from app.model.colours import COLOURS
 from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import LIFE, SPINS, Ends, ends_once, known_ends
-from app.model.lab.run import toy_of
 from app.model.runs import LATER, Run, Stopped
+from app.model.setup import toy_of
 from app.text import say, told, written
 from app.widgets.cards import words
 from app.widgets.failure import ended

@@ -17,7 +17,7 @@ from app.bundle import Bundled, pack
 from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
 from app.model.lab.allowed import SHOWN
 from app.model.lab.lab import FIRST, Lab
-from app.model.lab.run import shape_of
+from app.model.setup import shape_of
 from app.state import asked
 from app.text import listed, say, speaking, spoken
 from app.widgets.failure import after
@@ -61,7 +61,7 @@ class LabView(Bundled):
     For each table it has the frames of the motion, as `pack_frames` packs them, and its curves: float32 rows of the
     time (s), the tilt (degrees), the height of G, the energy and the heat so far (as mm of height), the spin about the
     top's own axis and its rotation seen from above (rev/s), and the code of the regime; for all three side by side
-    also what it conserves, float32 rows as of app.model.lab.keeps. All are empty if there is no such motion.
+    also what it conserves, float32 rows as of app.model.keeps. All are empty if there is no such motion.
     """
 
     SAYS = ("Stage", "Top3D")

@@ -11,12 +11,12 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.arrival import SPIN, TILT
-from app.model.lab.run import TableMotion
 from app.model.lesson import lesson
 from app.model.lesson.parts import Choice
 from app.model.lesson.runs import named, nutations, own
 from app.model.lesson.six import UNSURE
 from app.model.roll.levers import levers
+from app.model.run import TableMotion
 from app.model.story import story
 from app.text import listed, say, told
 from app.widgets.spelling import spelled

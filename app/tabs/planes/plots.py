@@ -8,10 +8,10 @@ from app.bundle import call
 from app.model.build.dimensions import named
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.families.groups import areas
-from app.model.planes.picture import PLANES
 from app.model.planes.tracks import QUANTITIES, ledger, tracks
 from app.model.planes.wells import wells
 from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
+from app.model.setup import TABLES
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say, written
 from app.widgets.plots import draw, on_click, on_pointer, plain
@@ -46,7 +46,7 @@ class Figures:
             BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
         )
         columns = [prefix + name for name in QUANTITIES for prefix in ("", "t_")]
-        self.curves = {plane: ColumnDataSource({name: [] for name in columns}) for plane in PLANES}
+        self.curves = {plane: ColumnDataSource({name: [] for name in columns}) for plane in TABLES}
         self.lines = {
             (plane, name): self.figures[name].line(
                 f"t_{name}", name, source=source, line_color=LOOKS[plane], line_width=2, name=plane
@@ -66,7 +66,7 @@ class Figures:
         """Draws all curves of a new Picture."""
         scales = picture.settings.scales
         ribbons = []
-        for plane in PLANES:
+        for plane in TABLES:
             motion = picture.motions[plane]
             if motion is None:
                 self.curves[plane].data = {name: [] for name in self.curves[plane].data}
@@ -76,7 +76,7 @@ class Figures:
                 name: track.value for name, track in found.items()
             }
             ribbons += [(plane, a * scales.time, b * scales.time, which) for a, b, which in motion.stretches]
-        row = [PLANES.index(plane) for plane, *_ in ribbons]
+        row = [TABLES.index(plane) for plane, *_ in ribbons]
         self.ribbons.data = {
             "start": [start for _, start, _, _ in ribbons],
             "end": [end for _, _, end, _ in ribbons],
@@ -89,11 +89,11 @@ class Figures:
     def look(self, picture, plane):
         """Shows one plane, and the others faintly where the comparison is useful; or all planes."""
         for (which, name), line in self.lines.items():
-            line.visible = plane in (which, "compare") or name in ("theta", "omega3")
-            line.glyph.line_alpha = 1 if plane in (which, "compare") else 0.3
+            line.visible = plane in (which, "three") or name in ("theta", "omega3")
+            line.glyph.line_alpha = 1 if plane in (which, "three") else 0.3
             line.glyph.line_width = 2.5 if which == plane else 1.5
         for name in QUANTITIES:
-            shown = [self.curves[which].data[name] for which in PLANES if self.lines[which, name].visible]
+            shown = [self.curves[which].data[name] for which in TABLES if self.lines[which, name].visible]
             shown = np.concatenate([values for values in shown if len(values)] or [np.zeros(1)])
             low, high = float(shown.min()), float(shown.max())
             low = min(0.0, low) if name != "omega3" else low
@@ -101,9 +101,9 @@ class Figures:
                 high = max(1.5, high)
             pad = 0.08 * (high - low) or 0.05 * (1 + abs(high))
             self.figures[name].y_range.update(start=low - pad, end=high + pad)
-        row = PLANES.index(plane) if plane in PLANES else None
-        self.figures["regime"].y_range.update(start=row or 0, end=len(PLANES) if row is None else row + 1)
-        motion = picture.motions[plane if plane in PLANES else "sliding"]
+        row = TABLES.index(plane) if plane in TABLES else None
+        self.figures["regime"].y_range.update(start=row or 0, end=len(TABLES) if row is None else row + 1)
+        motion = picture.motions[plane if plane in TABLES else "ordinary"]
         if motion is None:
             self.energies.data = {name: [] for name in ("t", *LEDGER)}
             return

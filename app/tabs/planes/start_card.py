@@ -4,8 +4,8 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.planes.picture import PLANES
 from app.model.planes.planes import PRESETS
+from app.model.setup import TABLES
 from app.tabs.planes.words import degrees, stem_words
 from app.text import listed, say
 from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, note, on_click, progress, words
@@ -15,7 +15,7 @@ NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("g
 NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
 SWITCHED = (*SWITCHES, "stem")
-SLIDES = ("sliding", "compare")  # planes with friction, on which the top can also hop
+SLIDES = ("ordinary", "three")  # planes with friction, on which the top can also hop
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 
 
@@ -105,7 +105,7 @@ class StartCard:
                              nearest=answer.nearest.get(name))  # fmt: skip
             for name in SWITCHED:
                 self.switches[name].show(inputs[name])
-        others = [said for name, said in messages.items() if name not in {*self.controls, *self._said, *PLANES}]
+        others = [said for name, said in messages.items() if name not in {*self.controls, *self._said, *TABLES}]
         for name, said in self._said.items():
             why = " ".join([*others, messages.get(name, "")]) if name == "run" else messages.get(name, "")
             said.object = alert(why.strip()) or notes.get(name, "")

@@ -5,10 +5,10 @@ import panel as pn
 from app.bundle import pack
 from app.model.colours import COLOURS
 from app.model.planes.moments import moments
-from app.model.planes.picture import PLANES
 from app.model.planes.planes import PATIENCE, preset
 from app.model.playing import Playing, together
 from app.model.regimes import COLOUR, NAMES
+from app.model.setup import TABLES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.start_card import StartCard
 from app.tabs.planes.words import LOOKS, in_force, table_words, verdict_words
@@ -52,7 +52,7 @@ class ThreePlanes:
         self._tops = {
             plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, label=say(f"planes.tops.{plane}"),
                          show_momentum=False, show_cone=False)
-            for plane in PLANES
+            for plane in TABLES
         }  # fmt: skip
         for top in self._tops.values():
             together(self._playing, top, ("playing",))
@@ -213,16 +213,16 @@ class ThreePlanes:
             self._set_speed(speed)
 
     def look(self, plane):
-        """Shows one plane, or all of them to "compare"."""
+        """Shows one plane, or all of them to "three"."""
         picture, self._plane = self._picture, plane
         if picture is None:
             return
-        compare = plane == "compare"
+        compare = plane == "three"
         with pn.io.hold():
             self._spread(compare)
             self._start.look(plane)
             for name, top in self._tops.items():
-                top.visible = plane in (name, "compare")
+                top.visible = plane in (name, "three")
                 top.stylesheets = SMALL_BAR if compare else []
                 if top.visible:
                     self._show_top(top, picture, name)
@@ -234,10 +234,10 @@ class ThreePlanes:
             self._table.visible = compare
             self._figures.look(picture, plane)
             self._well.show(picture, plane)
-            which = "sliding" if compare else plane
+            which = "ordinary" if compare else plane
             self._happened.rows = [
                 [t, f"{written(seconds, '.2f')} s", word, more]
-                for t, seconds, word, more in moments(picture.motions[which], picture.settings, which)
+                for t, seconds, word, more in moments(picture.motions[which])
             ]
 
     def _spread(self, compare):

@@ -6,22 +6,21 @@ from itertools import groupby
 import numpy as np
 
 from app.model.colours import COLOURS
-from app.model.planes.became import became, trend
-from app.model.planes.picture import PLANES, RTOL, SHORT
-from app.model.planes.run import THROWN
-from app.model.regimes import WOULD_LIFT
+from app.model.motion import RTOL, THROWN
+from app.model.planes.picture import SHORT
+from app.model.setup import TABLES
+from app.model.story import story
 from app.text import listed, say, written
 from app.widgets.cards import swatch
 from app.widgets.typeset import power
 
 # The colour of each plane, the same in all pictures of this room.
-LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
+LOOKS = {"ordinary": COLOURS["friction"], "rough": COLOURS["normal"], "ice": COLOURS["jellett"]}
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # A smaller drift is numerical error; physics changes a quantity by more.
 ROUNDING = 1e-7
 MOST_SPELLS = 5  # intervals on the ball, the stem or both that are listed one by one
-# A top with less kinetic energy (MgR) lies still; what begins before AT_ONCE (s) begins at 0.00 s.
-AT_REST, AT_ONCE = 1e-6, 0.005
+AT_ONCE = 0.005  # s: what begins before begins at 0.00 s
 # A nudge that grows by this factor turns a tenth of a degree, the accuracy of a hand, into ten degrees.
 SCATTERS, HAND = 100.0, 0.1
 
@@ -37,7 +36,7 @@ def milliseconds(seconds):
 def in_force(picture, plane):
     """The present friction law, with its parameters."""
     law, velocity, kind = picture.friction, picture.settings.scales.velocity, picture.settings.law
-    if plane in ("rough", "smooth"):
+    if plane in ("rough", "ice"):
         return say(f"planes.force.{plane}")
     if kind == "coulomb":
         return say("planes.force.coulomb", mu_k=law.mu_k, mu_s=law.mu_s)
@@ -58,10 +57,6 @@ def happens(event, settings):
     return say(f"planes.events.{event}", part=part(settings))
 
 
-def _frictionless(picture):
-    return picture.settings.law == "viscous" and picture.friction.gamma == 0
-
-
 # ---- how the motion ended ----
 
 
@@ -70,27 +65,15 @@ def fate(picture, plane):
     motion = picture.motions[plane]
     if motion is None:
         return html.escape(picture.messages.get(plane, say("planes.fate.nothing")))
-    if plane == "sliding":
-        return " ".join(filter(None, (_where(picture, motion), _touched(picture, motion), _goes_on(picture, motion))))
-    theta, last = motion.trajectory.theta, motion.trajectory.t[-1] * picture.settings.scales.time
-    low, high = degrees(theta.min()), degrees(theta.max())
-    between = say("planes.fate.stays" if low == high else "planes.fate.between", low=low, high=high)
-    lifts = say("planes.fate.lifts", time=last) if motion.ended == "lifts off" else ""
-    if motion.ended == "stem touches":
-        lifts = say("planes.fate.touches", time=motion.alone[0] * picture.settings.scales.time,
-                    part=part(picture.settings))  # fmt: skip
-    elif plane == "rough" and any(which == WOULD_LIFT for *_, which in motion.stretches):
-        lifts = say("planes.fate.pulls")
-    key = plane if theta.max() < np.pi / 2 else "swings"  # what passes 90 degrees is not said to stay below
-    return say(f"planes.fate.{key}", between=between, lifts=lifts) + (_gripped(picture) if plane == "rough" else "")
+    stages = story(motion).stages
+    if plane != "ordinary":
+        return _bold(stages[0].headline) + " ".join(html.escape(stage.why) for stage in stages)
+    said = (_where(picture, motion), _touched(picture, motion), html.escape(stages[-1].why))
+    return _bold(stages[-1].headline) + " ".join(filter(None, said))
 
 
-def _gripped(picture):
-    """The energy that the rough plane takes if the start does not roll."""
-    before, after = (float(motion.trajectory.energy[0]) for motion in (
-        picture.motions["sliding"], picture.motions["rough"]))  # fmt: skip
-    taken = before - after
-    return say("planes.fate.gripped", taken=taken) if taken > ROUNDING * before else ""
+def _bold(text):
+    return f"<b>{html.escape(text)}</b> "
 
 
 def _where(picture, motion):
@@ -104,8 +87,7 @@ def _where(picture, motion):
         way = "past" if motion.starts_below else "below"
         key = way if len(times) == 1 else f"{way}_at_last" if len(times) % 2 else f"{way}_and_back"
         at_the_end += say(f"planes.fate.{key}", first=times[0], last=times[-1])
-    return say("planes.fate.said", became=say(f"planes.became.{became(picture, motion)}",
-               part=part(picture.settings)), end=at_the_end)  # fmt: skip
+    return at_the_end + "."
 
 
 def spells(motion, seconds):
@@ -156,32 +138,6 @@ def _spell(spell, place, second):
     return said
 
 
-def _goes_on(picture, motion):
-    """Whether the motion is still changing, or what ended it."""
-    found, moved, seconds = motion.ending, motion.trajectory, picture.settings.scales.time
-    kind = became(picture, motion)
-    if kind in ("balances", "flat"):
-        return say(f"planes.goes_on.{kind}", part=part(picture.settings))
-    if found.ended:
-        time = motion.trajectory.events[-1][0] * seconds
-        return say("planes.goes_on.ended", time=time, happens=happens(motion.ended, picture.settings))
-    if kind == "rolls":
-        since = moved.events[-1][0] if moved.events else moved.t[0]  # an event between two samples can end it too
-        theta = moved.theta[moved.t >= since]
-        if not found.settled:
-            return say("planes.goes_on.rolls_yet", since=since * seconds)
-        return say("planes.goes_on.rolls", since=since * seconds, low=degrees(theta.min()), high=degrees(theta.max()))
-    if _frictionless(picture):
-        return ""
-    if found.settled:
-        low, high = degrees(found.least), degrees(found.most)
-        moves = moved.ledger.kinetic[-1]
-        how = ("rest" if moves < AT_REST else "both" if kind == "both" else "creeps" if found.creeps else
-               "else" if low == high else "sways")  # fmt: skip
-        return say(f"planes.goes_on.settled.{how}", low=low, high=high)
-    return say("planes.goes_on.cut", seconds=picture.settings.seconds, how=say(f"planes.goes_on.{trend(motion)}"))
-
-
 # ---- what friction does to the ball alone, and how predictable a run is ----
 
 
@@ -206,8 +162,8 @@ def outcome_words(goes, scales):
 
 def ball_words(picture):
     """What friction would do to the ball alone, and how far that applies to this run."""
-    settings, sliding = picture.settings, picture.motions["sliding"]
-    if _frictionless(picture):
+    settings, sliding = picture.settings, picture.motions["ordinary"]
+    if picture.settings.is_frictionless:
         heat = sliding.trajectory.heat[-1] if sliding else 0.0
         if heat > ROUNDING:
             return say("planes.verdict.impacts", heat=heat)
@@ -248,13 +204,13 @@ def run_words(picture):
     turns = state.omega3 * settings.scales.angular_velocity / (2 * np.pi)
     return say("planes.run.of", a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
                body=say(f"planes.run.{touches}", part=part(settings)), rtol=power(RTOL),
-               law=in_force(picture, "sliding"),
+               law=in_force(picture, "ordinary"),
                start=say(f"planes.run.{start}", tilt=degrees(state.theta), spin=turns, slip=settings.slip))  # fmt: skip
 
 
 def verdict_words(picture):
     lines = [f'<div class="line">{swatch(LOOKS[plane], "")}<b>{say(f"planes.plane.{plane}")}</b>: '
-             f"{fate(picture, plane)}</div>" for plane in PLANES]  # fmt: skip
+             f"{fate(picture, plane)}</div>" for plane in TABLES]  # fmt: skip
     return (
         "".join(lines)
         + f'<div class="says">{ball_words(picture)}{scatter_words(picture)}</div>'
@@ -267,11 +223,11 @@ def verdict_words(picture):
 
 def table_words(picture):
     """What is conserved on each plane: the measured drift."""
-    head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in PLANES)
+    head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in TABLES)
     rows = []
     for name in SURVIVES:
         cells = []
-        for plane in PLANES:
+        for plane in TABLES:
             motion = picture.motions[plane]
             cells.append(f"<td>{drift_words(name, motion, picture) if motion else say('planes.drift.nothing')}</td>")
         rows.append(f"<tr><td>{say(f'planes.survives.{name}')}</td>{''.join(cells)}</tr>")

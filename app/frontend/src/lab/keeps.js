@@ -4,7 +4,7 @@ import { float32 } from "../data.js";
 import { TABLES } from "./curves.js";
 import { drawn, part, say, written } from "./parts.js";
 
-const KINDS = ["kept", "swings", "nearly", "zero", "lost", "gripped"]; // as in app/model/lab/keeps.py
+const KINDS = ["kept", "swings", "nearly", "zero", "lost", "gripped"]; // as in app/model/keeps.py
 const OWN = { energy: { lost: "heat" }, spin: { zero: "reversed" } }; // a quantity's own word
 const DIGITS = { energy: 0, jellett: 2, routh: 2, spin: 1 }, MOST_DIGITS = 5;
 const WIDTH = 1 + 3 * Object.keys(DIGITS).length;

@@ -8,36 +8,28 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
 from app.model.bodies import body
-from app.model.lab.life import SECONDS, lived, thinned, within
+from app.model.life import SECONDS, lived, thinned, within
+from app.model.motion import Motion, Progress, check_room, clear, for_reader, motion_of, slid
 from app.model.phases import Phase, carried, phases, samples
-from app.model.planes.picture import Motion, Setup, by_hand
-from app.model.planes.run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
-from tippe_core import PRESETS, Contensou, Preset, Shape, State, Top, TopError, Trajectory, glide, grip, roll
+from app.model.setup import PATCH, TOYS, Setup, Toy, by_hand, shape_of
+from tippe_core import Contensou, State, TopError, Trajectory, glide, grip, roll
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
-TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth"})
-"""{table: its name in planes/run.py}."""
-TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
-PATCH = 0.5  # mm: the default radius of the contact patch
 MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
 STEM = "stem", "both"
-WHILE = 0.2  # s
+WHILE, AT_ONCE = 0.2, 1e-6  # s
 NEARLY = 1e-5  # relative: the precision of a time stored as float32
 SHIPS = *arrival.ARRIVAL, None, PATCH
-
-
-Toy: TypeAlias = str | Shape
-"""The name of one of TOYS, or a body of the visitor's own."""
 
 
 class TooLong(Exception):
@@ -109,7 +101,10 @@ class Watched(Motion):
         slips = np.flatnonzero(self.trajectory.regime != "roll")
         if not len(slips):
             return 0.0
-        return float(self.seconds[slips[-1] + 1]) if slips[-1] + 1 < len(self.seconds) else np.nan
+        if slips[-1] + 1 == len(self.seconds):
+            return np.nan
+        touch = self.trajectory.supports[-1][0] * self.start.scales.time  # which may be between two samples
+        return float(max(self.seconds[slips[-1] + 1], touch))
 
     @property
     def ended_at(self) -> float | None:
@@ -138,7 +133,8 @@ class Watched(Motion):
         if on and stretches[-1].on == "ball" and (on[-1].end - on[0].start) * unit > WHILE:
             found["off"] = on[-1].end * unit
         if 0.0 < self.rolls_since < self.seconds[-1]:
-            found["rolls"] = self.rolls_since
+            off = found.get("off", np.nan)
+            found["rolls"] = off if abs(self.rolls_since - off) < AT_ONCE else self.rolls_since
         return MappingProxyType(found)
 
     @cached_property
@@ -159,7 +155,6 @@ class TableMotion(Watched):
     and the code of regimes.py.
     """
 
-    start: Start
     lost: float
     whole: bool
     curves: Array
@@ -169,16 +164,6 @@ class TableMotion(Watched):
         """Whether the motion continues after the end of what was computed."""
         ended = bool(self.ended) and len(self.trajectory.t) < len(self.t)
         return self.whole and self.table == "ordinary" and not ended and bool(np.isnan(self.rolls_since))
-
-
-def shape_of(toy: Toy) -> Shape:
-    """The body of a toy."""
-    return TOYS[toy].shape if isinstance(toy, str) else toy
-
-
-def toy_of(shape: Shape, top: Top) -> Toy:
-    """The name in TOYS of the toy with this body and this top; if there is none, the body."""
-    return next((name for name, preset in TOYS.items() if preset.shape == shape and preset.top == top), shape)
 
 
 def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH) -> Start:
@@ -210,7 +195,10 @@ def whole_on(
         kept = arrival.read(start.top)
         return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
     if table != "ordinary":
-        seconds = whole_on("ordinary", toy, spin, tilt, mu, given, patch).start.seconds
+        try:
+            seconds = whole_on("ordinary", toy, spin, tilt, mu, given, patch).start.seconds
+        except (TopError, TooLong):
+            seconds = SECONDS
         return on(replace(start, seconds=seconds), table)
     try:
         seconds, kept = lived(start, Patience)
@@ -229,12 +217,12 @@ def on(start: Start, table: str) -> TableMotion:
         raise for_reader(error, start.scales) from None
 
 
-def computed(start: Start, table: str) -> tuple[Trajectory, float]:
-    """The trajectory of a Start on a table, and the energy (MgR) that the grip of the rough one has taken."""
+def computed(start: Setup, table: str, progress: Progress | None = None) -> tuple[Trajectory, float]:
+    """The trajectory of a Setup on a table, and the energy (MgR) that the grip of the rough one has taken."""
     top, state, times, lost = start.top, start.state, start.times, 0.0
     check_room(start, state)
     if table == "ordinary":
-        return slid(start, state, times, Patience()), lost
+        return slid(start, state, times, progress or Patience()), lost
     if table == "ice":
         return clear(partial(glide, top, state, times), start, state), lost
     state, lost = grip(top, state)
@@ -245,12 +233,17 @@ def moved(start: Start, table: str, trajectory: Trajectory, lost: float, *, whol
     """The TableMotion of the results of computed(). whole: the trajectory is already thinned and goes to the end."""
     shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
     times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)
-    motion = motion_of(shown, start, times, TABLES[table])
-    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole or table != "ordinary",
+    return watched(shown, start, times, table, lost, whole=whole or table != "ordinary")
+
+
+def watched(trajectory: Trajectory, start: Setup, times: Array, table: str, lost: float, *, whole: bool) -> TableMotion:
+    """The TableMotion of a Trajectory that was asked for at these times."""
+    motion = motion_of(trajectory, start, times, table)
+    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole,
                        curves=_curves(motion, start, lost))  # fmt: skip
 
 
-def _curves(motion: Motion, start: Start, lost: float) -> Array:
+def _curves(motion: Motion, start: Setup, lost: float) -> Array:
     moved, scales = motion.trajectory, start.scales
     turns, millimetres = scales.angular_velocity / (2 * np.pi), 1e3 * scales.R
     spin, above = moved.omega[:, 2], moved.omega[:, 1] * np.sin(moved.theta) + moved.omega[:, 2] * np.cos(moved.theta)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from app.model.lab.run import STEP, TableMotion
+from app.model.run import STEP, TableMotion
 from tippe_core import Constants
 from tippe_core.types import Array
 

@@ -6,8 +6,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from app.model.planes.picture import Setup
-from app.model.planes.run import slid
+from app.model.motion import slid
+from app.model.setup import Setup
 from tippe_core import TopError, Trajectory
 
 SECONDS = 6.0  # of a run while a hand moves, and at least of any other
@@ -48,8 +48,8 @@ def lived(start: Setup, look: Callable[[], Callable[[float], object]]) -> tuple[
     if len(found.t) > MOST_ROWS:
         found = thinned(moved, time, time * float(found.t[MOST_ROWS - 1]))
     elif len(moved.t) < len(times):
-        return end, found
-    return time * float(found.t[-1]), found
+        return min(end, LIFE), found
+    return min(time * float(found.t[-1]), LIFE), found
 
 
 def _end(moved: Trajectory, time: float, *, ended: bool) -> float:

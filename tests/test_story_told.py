@@ -1,0 +1,58 @@
+"""The independent checker over runs that are computed: starts of which something false was said, and random ones."""
+
+import pytest
+import story_checker
+from story_checker import BODIES, STEMLESS, faults, starts, told_by
+
+from app.model import run, tell
+
+FALSE = [
+    ("hollow", "spin=20.616&tilt=17.50&mu_k=0.070"),  # "from 15° to 15°": heights, in mm
+    ("ball", "spin=0.813&tilt=79.81&mu_k=0.084"),  # "to and fro" of what went one way
+    ("loaded", "spin=43.236&tilt=1.95&mu_k=0.341"),  # slides, and it swings
+]
+REFUSED = [
+    ("paper", "spin=27.5&tilt=51.8"),  # "seconds = 60 is not possible"
+    ("disc", "spin=17.219&tilt=7.73&mu_k=0.076"),  # 60.1 s
+]
+
+
+def told(preset, start):
+    return tell(f"?v=2&body={BODIES[preset]}&{start}&table=three&tab=lab")
+
+
+@pytest.mark.parametrize(("preset", "start"), FALSE)
+def test_what_was_false_is_so_no_more(preset, start):
+    assert faults(told(preset, start), preset in STEMLESS) == []
+
+
+@pytest.mark.parametrize(("preset", "start"), REFUSED)
+def test_rough_and_ice_are_not_refused_for_what_the_ordinary_table_does(preset, start):
+    found = told(preset, start)["tables"]
+    assert not found["rough"]["refused"] and not found["ice"]["refused"]
+
+
+def test_a_life_that_takes_too_long_on_the_ordinary_table_is_no_reason_elsewhere(monkeypatch):
+    """Rough and ice only ask it how long to be shown."""
+
+    def endless(*given):
+        raise run.TooLong
+
+    monkeypatch.setattr(run, "lived", endless)
+    assert run.whole_on("rough", "Wooden cone", 49.5, 20.0, 0.751).start.seconds == run.SECONDS
+
+
+@pytest.mark.long
+def test_nothing_false_is_said_of_a_hundred_starts():
+    drawn, false, failed = list(starts(100, 51)), [], []
+    for (preset, query), found in zip(drawn, told_by(query for _, query in drawn), strict=True):
+        if "error" not in found:
+            false += [(query, *fault) for fault in faults(found, preset in STEMLESS)]
+        elif "TopError" not in found["error"]:  # of a body that cannot be put down so
+            failed.append((query, found["error"]))
+    assert not false and not failed
+
+
+@pytest.mark.slow
+def test_nothing_false_is_said_of_the_cases_of_the_past():
+    assert not story_checker.counted(story_checker.cases())
