@@ -1,10 +1,11 @@
-"""All code on the pages of docs/ runs, and prints what the page says."""
+"""All code on the pages of docs/ runs, and prints what the page says: python tests/test_docs.py PAGE writes that."""
 
 import ast
 import contextlib
 import functools
 import io
 import re
+import sys
 import textwrap
 from pathlib import Path
 
@@ -30,14 +31,28 @@ def text(page):
     return (DOCS / f"{page}.md").read_text(encoding="utf-8")
 
 
+PRINTED = re.compile(r"```python\n(.*?)```\n\nprints\n\n```text\n(.*?)```", re.S)
+
+
+def prints(code):
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        exec(code, {})
+    return out.getvalue()
+
+
+def written(page):
+    """The page's text with what its code prints today."""
+    return PRINTED.sub(
+        lambda each: each[0].replace(f"```text\n{each[2]}```", f"```text\n{prints(each[1])}```"), text(page)
+    )
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("page", [page for page in PAGES if "```python" in text(page)])
 def test_printed_lines(page):
-    for code, printed in re.findall(r"```python\n(.*?)```\n\nprints\n\n```text\n(.*?)```", text(page), re.S):
-        out = io.StringIO()
-        with contextlib.redirect_stdout(out):
-            exec(code, {})
-        assert out.getvalue() == printed
+    for code, printed in PRINTED.findall(text(page)):
+        assert prints(code) == printed
     assert text(page).count("```python") == text(page).count("\nprints\n")
 
 
@@ -174,3 +189,7 @@ def test_the_page_explains_a_term_as_the_glossary_does():
 def test_a_form_belongs_to_one_term(language):
     forms = [form.lower() for each in listed("glossary.terms", language).values() for form in each["forms"].split("|")]
     assert len(forms) == len({*forms})
+
+
+if __name__ == "__main__":
+    (DOCS / f"{sys.argv[1]}.md").write_text(written(sys.argv[1]), encoding="utf-8")

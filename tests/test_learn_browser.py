@@ -14,9 +14,11 @@ from watching import LOST
 
 from app.model.explorer import Explorer
 from app.model.lesson import lesson, parts
+from app.model.published import curves as curves_of
 from app.model.roll import derivation
 from app.state.keep import read
 from app.tabs.learn.learn import Learn
+from app.tabs.learn.published import Steps, curve_said
 from app.tabs.learn.teach import link
 from app.tabs.learn.worksheet import worksheet
 from app.text import listed, say, speaking
@@ -137,6 +139,18 @@ def test_a_walk_through_the_lesson(learn, language, like):
     crumbs.last.click()
     page.get_by_role("button", name=say("learn.view.lab", language)).click()
     found.until(lambda: "lab" in found.told)
+
+
+def test_a_slider_of_the_step_shows_what_steps_do_to_coulombs_law(alone):
+    found, curves = alone(), [curve_said(curve) for curve in curves_of()]
+    page = found.show(Steps(curves=curves, points=[]))
+    says = page.locator(".steps li")
+    says.first.wait_for()
+    assert says.count() == 4 and page.locator(".steps .plot .line").count() == 4
+    assert says.last.inner_text() == "{name}: {says}".format(**curves[3])
+    page.get_by_role("slider").press("End")
+    assert says.last.inner_text() == "{name}: {says}".format(**curves[-1]) and "90" not in curves[-1]["says"]
+    assert violations(page) == []
 
 
 def test_what_is_for_theorists(learn):

@@ -29,6 +29,8 @@ SAME = (
     "measure.heads.*",
     "measure.units.*",
     "measure.number_units.radius",
+    "published.results.friedl.what",
+    "published.view.milliseconds",
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"

@@ -22,7 +22,7 @@ from app.text import LANGUAGES
 ROOMS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
 """Tabs may consist of several rooms."""
 LEVELS = ("explore", "research")
-SECTIONS = ("lesson", "derivation", "teach", "history")
+SECTIONS = ("lesson", "derivation", "published", "teach", "history")
 """The rooms of the tab Learn."""
 SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
 

@@ -3,6 +3,7 @@ import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
 import { renderLesson } from "./learn/lesson.js";
+import { renderSteps } from "./learn/steps.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
@@ -53,6 +54,7 @@ export default {
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },
   Said: { render: renderSaid },
+  Steps: { render: renderSteps },
   ShareHead: { render: renderShareHead },
   Surface3D: { render: renderSurface3D },
   Top3D: { render: renderTop3D },

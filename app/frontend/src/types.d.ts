@@ -253,6 +253,11 @@ type LessonModel = Model & Record<"state", any> & {
   asked: [count: number, name: string, value: string | number] | [];
 };
 
+interface StepsModel extends Model {
+  curves: any[];
+  points: [word: string, seconds: number, degrees: number][];
+}
+
 // Bokeh's models, as far as they are used here. Changes that are not synced stay in this browser.
 interface BokehModel {
   setv(values: Record<string, any>, how: { sync: false }): void;

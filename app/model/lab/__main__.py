@@ -10,7 +10,7 @@ from app.model.life import lived
 from app.model.run import Patience, start_of
 from tippe_core import Trajectory
 
-NO_ROWS = "top", "time_90", *HAPPENS
+NO_ROWS = "top", "notes", *HAPPENS
 
 
 def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:

@@ -31,7 +31,7 @@ def creep(scene: Scene) -> Answer:
 PERCENT, ANGLE = Guess(0.0, 100.0, 0.5, "%", 0.25, 2.0), Guess(0.0, 180.0, 0.5, "°", 0.0, 3.0)
 THEORY = (
     Step("creep", asked("both", "point", "patch", "neither"), creep, ("point", "patch"), 0.03, 2.4,
-         sources=("leine",)),
+         sources=("cohen", "leine")),
     Step("turning", ANGLE, turning, before=0.25, end=2.0, picture="curves", inputs=at(0.6, 0.95),
          tex=(r"\begin{aligned}f_1^2\,\dot\theta^2={}&2E'-2a(1-\cos\theta)\\&-\frac{f_2^2}{\sin^2\theta}\left[K_J-"
               r"\frac{I_3}{I_1}(\cos\theta-a)\frac{K_R}{f_3}\right]^2\quad(36)\end{aligned}",),

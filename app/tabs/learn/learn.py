@@ -12,6 +12,7 @@ from app.state.names import SECTIONS
 from app.tabs.learn.lesson import FIRST, LessonView, cut, runs_of, said
 from app.tabs.learn.lines import Derivation
 from app.tabs.learn.present import Teacher
+from app.tabs.learn.published import published_view
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
@@ -119,9 +120,10 @@ class Learn(param.Parameterized):
     # ---- the sections ----
 
     def _look(self):
-        """Shows the section; the teacher's page and the history are created when they are first shown."""
+        """Shows the section; those beside the lesson and the derivation are created when they are first shown."""
         section = self.section
-        makers = {"teach": lambda: teach_view(self._present, self.teacher.close), "history": history_view}
+        makers = {"published": lambda: published_view(self._runs), "history": history_view,
+                  "teach": lambda: teach_view(self._present, self.teacher.close)}  # fmt: skip
         if section in makers and section not in self._made:
             self._made[section] = makers[section]()
         self.sections.visible = section != "lesson"

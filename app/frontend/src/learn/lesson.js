@@ -12,7 +12,7 @@ import { Question } from "./question.js";
 import { Stage } from "./stage.js";
 import { style } from "./style.js";
 
-const SECTIONS = ["derivation", "teach", "history"];
+const SECTIONS = ["derivation", "published", "teach", "history"];
 const NEARLY = 0.03, LONG = 3; // s: this close to the end counts as the end; a longer rest can be skipped
 
 class Lesson {

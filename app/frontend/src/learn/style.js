@@ -90,6 +90,12 @@ const present = `
 .lesson.empty > :is(.stage, .side, .question) { display: none !important; }
 `;
 
+const steps = `
+.steps .picture { max-height: none; padding: 0; } .steps .picture .plot { height: 260px; flex: none; }
+.step { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 12px; margin: 8px 0; } .step input { flex: 1; min-width: 120px; min-height: var(--touch); accent-color: var(--accent); } .step output { min-width: 4em; font-weight: 600; }
+.steps ul { list-style: none; margin: 0; padding: 0; display: grid; gap: 4px; } .steps li { display: flex; gap: 8px; align-items: baseline; } .steps .swatch { flex: none; width: 26px; height: 8px; }
+`;
+
 const small = `
 @container (min-width: 1500px) { .lesson { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 640px; font-size: var(--t-m); } .question { font-size: 38px; } .picture { max-height: 420px; } }
 @container (max-width: 1180px) { .lesson { --side: 400px; gap: 10px 16px; padding: 8px 16px; } .question { font-size: 24px; } }
@@ -107,4 +113,4 @@ const small = `
 }
 `;
 
-export const style = [shared, places, asked, drawings, present, small].join("");
+export const style = [shared, places, asked, drawings, present, steps, small].join("");

@@ -1,0 +1,40 @@
+// Cohen's top by several laws of friction, and by Coulomb's in steps whose length a slider chooses.
+import { drawn, part, say } from "../lab/parts.js";
+import { coalesce } from "../data.js";
+import { Graph } from "./graph.js";
+import { style } from "./style.js";
+
+/** @param {Rendering<StepsModel>} rendering */
+export function renderSteps({ model, el }) {
+  const { texts } = model, said = texts.steps;
+  const graph = new Graph(texts);
+  const range = part("input", { type: "range", min: 0, max: 0, step: 1, value: 0, "aria-label": said.step, oninput: () => show() });
+  const chosen = part("output");
+  const list = part("ul", { "aria-live": "polite" });
+  const label = part("label", { class: "step" }, part("span", {}, said.step), range, chosen);
+  const frame = part("div", { class: "frame" }, graph.element, label, list);
+  frame.classList.add("steps");
+
+  function show() {
+    const steps = model.curves.filter(({ step }) => step), laws = model.curves.filter(({ step }) => !step);
+    label.hidden = list.hidden = !steps.length;
+    if (!steps.length) return;
+    range.max = String(steps.length - 1);
+    const present = steps[Number(range.value)], curves = [...laws, present];
+    chosen.textContent = range.ariaValueText = say(texts, said.milliseconds, { step: [present.step, 0] });
+    list.replaceChildren(...curves.map(({ name, says, colour, dash }) => part("li", {}, swatch(colour, dash), part("span", {}, part("b", {}, `${name}: `), says))));
+    graph.show({ step: { picture: "graph", end: 0, graph: { x: said.x, y: said.y, of: "x", curves: curves.map((curve) => ({ ...curve, word: "" })), points: model.points } },
+      record: { asked: false, seen: Infinity }, tops: [0] });
+  }
+
+  const swatch = (colour, dash) => drawn("svg", { class: "swatch", viewBox: "0 0 26 8", "aria-hidden": "true" },
+    drawn("path", { class: "line", d: "M1 4H25", stroke: colour, "stroke-dasharray": { dashed: "7 4", dotted: "2 4" }[dash] }));
+  const look = () => { frame.dataset.look = document.documentElement.dataset.look?.startsWith("dark") ? "dark" : "light"; };
+  const listening = new AbortController(), showing = coalesce(show);
+  window.addEventListener("tippe:look", look, listening);
+  model.on("curves", showing);
+  model.on("remove", () => { listening.abort(); graph.leave(); });
+  el.replaceChildren(part("style", {}, style), frame);
+  look();
+  show();
+}
