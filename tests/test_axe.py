@@ -29,24 +29,40 @@ def test_axe_finds_what_is_there(chromium):
     page.close()
 
 
-def test_axe_finds_nothing_on_a_phone(chromium, server):
-    """Of the colours only where they are of the phone's own parts: all others have those of a large screen."""
+def opened_on_a_phone(chromium, server):
     phone = chromium.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", is_mobile=True,
                                  has_touch=True, user_agent="Mozilla/5.0 (Linux; Android 14) Mobile")  # fmt: skip
     page = phone.new_page()
     page.goto(server)  # the page on arrival
     page.locator("button:text-is('Spin it'):visible").wait_for()
     page.locator("#first").wait_for(state="detached")
+    return page
+
+
+def open_room(page, name):
+    if not page.get_by_role("radio", name="Research").locator("visible=true").count():
+        page.get_by_role("button", name="More", exact=True).click()
+    go_to(page, name)
+    page.locator(ON_A_PHONE[name]).first.wait_for()
+    page.wait_for_function("window.Bokeh?.documents?.[0]?.is_idle")
+
+
+@pytest.mark.long
+def test_axe_finds_nothing_in_any_room_on_a_phone(chromium, server):
+    """Of the colours only where they are of the phone's own parts: all others have those of a large screen."""
+    page = opened_on_a_phone(chromium, server)
+    for name in ON_A_PHONE:
+        open_room(page, name)
+        assert violations(page, leaves_out=["color-contrast"]) == [], name
+    page.context.close()
+
+
+def test_axe_finds_nothing_on_a_phone(chromium, server):
+    page = opened_on_a_phone(chromium, server)
     assert violations(page) == [], "the lab"
     page.get_by_role("button", name="More", exact=True).click()
     assert violations(page) == [], "the menu"
-    for name, ready in ON_A_PHONE.items():
-        if not page.get_by_role("radio", name="Research").locator("visible=true").count():
-            page.get_by_role("button", name="More", exact=True).click()
-        go_to(page, name)
-        page.locator(ready).first.wait_for()
-        page.wait_for_function("window.Bokeh?.documents?.[0]?.is_idle")
-        assert violations(page, leaves_out=["color-contrast"]) == [], name
+    open_room(page, "Learn")
     for place in (4, 6):  # the two arms in place of the top; the question about one's own
         page.locator(".crumbs button").nth(place).click()
         page.locator(".option:visible").first.wait_for()
@@ -54,4 +70,4 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
         page.evaluate(LOOK, DARK)
         assert contrast(page) == [], place
         page.evaluate(LOOK, LIGHT)
-    phone.close()
+    page.context.close()

@@ -164,7 +164,7 @@ def test_nothing_false_is_said_of_a_few_random_starts():
         assert not faults(tell(link(*start))), start
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_nothing_false_is_said_of_a_hundred_random_starts():
     for start in starts(20261127, 100):
         assert not faults(tell(link(*start))), start
