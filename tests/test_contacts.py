@@ -38,7 +38,8 @@ def gap(edge, c, s):
 def impact(W, u0, friction):
     """The impulse alone, of a body that does not spin about the vertical."""
     law = new(LAW)
-    law.kind, law.mu, law.mu_s, law.width, law.radius = friction.law
+    for name, value in friction.law._asdict().items():
+        law[name] = value
     whole = np.zeros((4, 4))
     whole[:3, :3], whole[3, 3] = W, 1.0
     return four(whole, np.append(u0, 0.0), law, new(IMPACT))[:3]

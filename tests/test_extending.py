@@ -16,7 +16,8 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from sliding_body import integrate, matrix
-from tippe_core import ConedSphere, Coulomb, State, Stribeck, Top, load_top, roll, save_top, slide
+from tippe_core import (ConedSphere, Coulomb, SmoothedCoulomb, State, Stribeck, Top, grip, load_top, roll, save_top,
+                        slide)
 
 paper, start = Top.paper(), State(0.3, 0.0, 0.0, 9.0)
 
@@ -44,11 +45,12 @@ for law, state in ((Coulomb(0.3), start), (Coulomb(5.0), State(1.0, 0.0, 0.2, 6.
     assert near[found > 0.01].max() < 2e-3 and abs(len(turns) - len(found)) <= 1
 
 # the end, where it slips, and against the exact motion where it rolls
-moved = slide(paper, State(0.1, 0.0, 0.0, 9.0), Coulomb(0.3), np.linspace(0, 300, 3001))
+turns_over = paper, State(0.1, 0.0, 0.0, 8.8), SmoothedCoulomb(0.3, 1.0)
+moved = slide(*turns_over, np.linspace(0, 300, 3001))
 when, name = moved.events[-1]
 assert name == "leans too far" and moved.t[-1] < when < moved.t[-1] + 0.1 + 1e-9 and moved.theta.max() < 2.0
-assert abs(slide(paper, State(0.1, 0.0, 0.0, 9.0), Coulomb(0.3), [0, when - 1e-7]).theta[-1] - 2.0) < 1e-6
-state = State(1.8, 0.5, 0.0, 0.3)
+assert abs(slide(*turns_over, [0, when - 1e-7]).theta[-1] - 2.0) < 1e-6
+state, _ = grip(paper, State(1.8, 0.5, 0.0, 0.3))  # it rolls from the start
 moved = slide(paper, state, Coulomb(5.0), np.linspace(0, 10, 1001))
 tilt = lambda t: roll(paper, None, [0, t], state).theta[1] - 2.0
 assert moved.events[-1][1] == "leans too far" and abs(moved.events[-1][0] - brentq(tilt, 0, moved.t[-1] + 0.02)) < 1e-8

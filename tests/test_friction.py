@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tippe_core import Contensou, Coulomb, SmoothedCoulomb, TopError, Viscous
+from tippe_core import Contensou, Coulomb, SmoothedCoulomb, State, Top, TopError, Viscous, slide, slide_many
 from tippe_core.motion.friction import bounds, push, sticks
 
 MU, RADIUS = 0.3, 1 / 30
@@ -122,3 +122,20 @@ def test_what_is_no_patch_is_refused(name, values):
     with pytest.raises(TopError) as refused:
         Contensou(*values)
     assert refused.value.name == name
+
+
+def test_a_patch_whose_torque_is_left_out_keeps_jelletts_constant():
+    """Any force at the contact point keeps C_J (14); only a torque about the normal changes it."""
+    top, start = Top.paper(), State(0.1, 0.0, 0.0, 9.0)
+    with_torque, without = (Contensou(MU, 0.02, pivots=pivots) for pivots in (True, False))
+    moved, kept = (slide(top, start, law, np.linspace(0, 10, 101)) for law in (with_torque, without))
+    assert np.abs(moved.jellett / moved.jellett[0] - 1).max() > 5e-3
+    assert np.abs(kept.jellett / kept.jellett[0] - 1).max() < 1e-8
+    assert np.ptp(kept.energy + kept.heat) < 1e-8 < 1e-3 < kept.heat[-1]
+    assert np.isnan(slide_many(top, start, with_torque, 5.0).C_J_drift)
+    assert slide_many(top, start, without, 5.0).C_J_drift < 1e-5
+    assert push(without.law, 0.04, 9.0) == (push(with_torque.law, 0.04, 9.0)[0], 0.0)
+    assert repr(without) == "Contensou(mu=0.3, radius=0.02, pivots=False)" and eval(repr(with_torque)) == with_torque
+    with pytest.raises(TopError) as refused:
+        Contensou(MU, 0.02, pivots="no")
+    assert refused.value.name == "pivots"

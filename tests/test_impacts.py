@@ -21,6 +21,7 @@ from tippe_core import (
     TruncatedSphere,
     Viscous,
     slide,
+    slide_many,
 )
 
 # ---- Painleve's limit ----
@@ -329,3 +330,43 @@ def test_on_the_stem_the_body_turns_as_its_omega_says(friction):
     omega = in_space(moved.phi, moved.theta, *moved.omega.T)[1:-1]
     found = (turned[2:] * turned[:-2].inv()).as_rotvec() / (2 * times[1])
     assert np.abs(found - omega).max() < 2e-4 * np.abs(omega).max()
+
+
+# ---- starts in flight ----
+
+
+@pytest.mark.parametrize("landing", ["plastic", "stop"])
+def test_a_top_that_starts_in_flight_falls_freely_until_it_lands(landing):
+    """Galilei's parabola; without a spin the tilt stays, so the height of G at which it lands is known."""
+    start, times = State(0.5, 0.0, 0.0, 0.0, vx=0.3, vy=-0.2, z=1.5, vz=0.4), np.linspace(0, 2, 41)
+    moved = slide(PAPER, start, VISCOUS, times, landing=landing)
+    [lands] = [t for t, name in moved.events if name == "lands"]
+    low = 1 - PAPER.a * np.cos(0.5)
+    assert lands == pytest.approx(0.4 + np.sqrt(0.16 + 2 * (1.5 - low)), abs=1e-9)
+    flies = moved.t < lands
+    assert (moved.regime[flies] == "air").all() and moved.events[0][1] == "lands"
+    t = times[flies]
+    np.testing.assert_allclose(moved.com[flies, 2], 1.5 + 0.4 * t - t**2 / 2, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(moved.com[flies, :2], t[:, None] * [0.3, -0.2], rtol=0, atol=1e-12)
+    assert moved.supports[:2] == ((0.0, "none"), (lands, "ball"))
+    assert np.ptp(moved.energy + moved.heat) < 1e-9
+
+
+def test_a_start_in_flight_lands_on_the_stem_and_many_know_it():
+    start = State(2.9, 0.0, 0.0, -6.0, z=2.5)
+    moved = slide(PAPER, start, VISCOUS, [0, 1.5], edge=EDGE)
+    assert moved.events[0][1] == "lands on its stem"
+    heights = np.array([2.5, 0.5])
+    many = slide_many(PAPER, State(2.9, 0.0, 0.0, -6.0, z=heights), VISCOUS, 1.5, EDGE)
+    assert many.time_stem[0] == pytest.approx(moved.events[0][0], abs=1e-6) and many.hops[0] == 0
+    assert many.reason.tolist() == ["", "out-of-range"] and many.end[1] == "refused"
+
+
+def test_a_start_in_the_table_or_half_in_flight_is_refused():
+    low = 1 - PAPER.a * np.cos(0.5)
+    with pytest.raises(TopError, match=f"{low:.6g}") as refused:
+        slide(PAPER, State(0.5, 0, 0, 5, z=low - 1e-3), VISCOUS, [0, 1])
+    assert refused.value.name == "z"
+    with pytest.raises(TopError) as refused:
+        State(0.5, 0, 0, 5, vz=1.0)
+    assert refused.value.name == "vz"

@@ -37,7 +37,7 @@ def spare(i: int, P: Record, C: Record, alone: bool) -> float:
     """How far static friction at contact i is below its limit: mu_s N - F_h, and the same for its torque."""
     most, twists = bounds(P.law)
     holds = most * C.F[i, 2] - np.sqrt(C.F[i, 0] ** 2 + C.F[i, 1] ** 2)
-    if P.law.radius > 0.0 and alone:
+    if P.law.pivots and alone:
         holds = min(holds, twists * C.F[i, 2] - abs(C.M[i, 2]))
     return holds
 
@@ -173,7 +173,7 @@ def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -
     F, M, N = (C.F[i, 0], C.F[i, 1]), C.M[i, 2], abs(C.F[i, 2]) + SLACK
     q = moving(y, i, P, C)
     change = (q[0] + NUDGE * F[0] / (most * N), q[1] + NUDGE * F[1] / (most * N), q[2],
-              q[3] + NUDGE / P.law.radius * M / (twists * N))  # fmt: skip
+              q[3] + (NUDGE / P.law.radius * M / (twists * N) if P.law.pivots else 0.0))  # fmt: skip
     pushed(y, i, held(mobility(i, i, y, P, C), change, P.law), P, C)
 
 

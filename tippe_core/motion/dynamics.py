@@ -163,7 +163,7 @@ def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
             n = column(C, n, i, 2, (0.0, 0.0, 1.0), (rolls[0], rolls[1], 0.0))
             n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
             n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
-            if P.law.radius > 0.0 and (ball == OPEN or stem == OPEN):
+            if P.law.pivots and (ball == OPEN or stem == OPEN):
                 n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     return n
 

@@ -27,7 +27,7 @@ class Law(NamedTuple):
 
     kind tells push() its formula. mu_s: the coefficient of static friction, 0 if there is none: otherwise the law is
     set-valued at rest, and a slip may stop. width: a speed in the formula. radius: that of a contact that is a patch,
-    not a point: it has a torque, and stops only if it does not spin either.
+    not a point, and stops only if it does not spin either. pivots: whether it has a torque.
     """
 
     kind: int
@@ -35,6 +35,7 @@ class Law(NamedTuple):
     mu_s: float
     width: float = 0.0
     radius: float = 0.0
+    pivots: bool = False
 
 
 @dataclass(frozen=True)
@@ -129,8 +130,8 @@ class Contensou(_Friction):
         F_h = -mu int p (u + omega_n x r)/|u + omega_n x r| dA ,   p = 3 F_z/(2 pi radius^2) (1 - r^2/radius^2)^1/2 ,
 
     and T is the integral of r x the same; contensou() has the closed forms. The contact cannot stick while it spins. If
-    u and radius omega_n both vanish, it sticks up to bounds(). radius = 0 is Coulomb(mu). Raises TopError for anything
-    else.
+    u and radius omega_n both vanish, it sticks up to bounds(). radius = 0 is Coulomb(mu). pivots =
+    False leaves T out, for experiments. Raises TopError for anything else.
 
     P. Contensou, in Kreiselprobleme (IUTAM, Springer 1963); for the tippe top R. I. Leine and Ch. Glocker, Eur. J.
     Mech. A/Solids 22, 193 (2003).
@@ -138,14 +139,21 @@ class Contensou(_Friction):
 
     mu: float
     radius: float
+    pivots: bool = True
 
     def __post_init__(self) -> None:
         self._positive("mu")
         self._positive("radius", zero=True)
+        if self.pivots not in (True, False):
+            raise TopError("pivots", self.pivots, "True | False", code="wrong-kind")
+
+    def __repr__(self) -> str:
+        return f"Contensou(mu={self.mu!r}, radius={self.radius!r}{'' if self.pivots else ', pivots=False'})"
 
     @property
     def law(self) -> Law:
-        return Law(CONTENSOU if self.radius else COULOMB, self.mu, self.mu, radius=self.radius)
+        patch = self.radius > 0
+        return Law(CONTENSOU if patch else COULOMB, self.mu, self.mu, 0.0, self.radius, patch and bool(self.pivots))
 
 
 Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb | Contensou
@@ -164,7 +172,8 @@ def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
     if law.kind == SMOOTHED:
         return law.mu / np.sqrt(square + law.width * law.width), 0.0
     if law.kind == CONTENSOU and law.radius * abs(omega_n) > LEAST:
-        return contensou(law.mu, law.radius, square, omega_n)
+        k, t = contensou(law.mu, law.radius, square, omega_n)
+        return k, (t if law.pivots else 0.0)
     return (law.mu / np.sqrt(square) if square > 0.0 else 0.0), 0.0
 
 
@@ -172,7 +181,7 @@ def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
 def bounds(law: Law) -> tuple[float, float]:
     """The largest |F_h| and |T| per unit of F_z at a contact that neither slips nor spins: mu_s and, for Contensou's
     law, (3 pi/16) mu radius."""
-    return law.mu_s, 3 * np.pi / 16 * law.mu * law.radius
+    return law.mu_s, (3 * np.pi / 16 * law.mu * law.radius if law.pivots else 0.0)
 
 
 @compiled

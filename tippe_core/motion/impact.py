@@ -76,9 +76,9 @@ def spread(q: Slip, law: Record) -> float:
 def held(W: Array, q: Slip, law: Record) -> Array:
     """The impulse that brings (u, w_z) = q to rest; w_z only if the law has a torque."""
     matrix, J = W.copy(), np.array([-q[0], -q[1], -q[2], -q[3]])
-    if law.radius == 0.0:
+    if not law.pivots:
         J[3] = 0.0
-    solve(matrix, J, 4 if law.radius > 0.0 else 3)
+    solve(matrix, J, 4 if law.pivots else 3)
     return J
 
 

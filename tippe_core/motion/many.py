@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..classify import LAST, judged
-from ..errors import TopError, common_shape, numbers, single
+from ..errors import TopError, common_shape, has_arrays, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
@@ -153,8 +153,10 @@ def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
         for cell in cells.flat:
             single(name, cell, *kinds)
         return cells
+    if isinstance(given, kinds) and not has_arrays(given):
+        return _objects([given], ())
     missing = {}
-    for kind in (type(given),) if isinstance(given, kinds) else kinds:
+    for kind in kinds:
         values = {field.name: getattr(given, field.name, None) for field in fields(kind)}
         missing[kind] = [
             field.name for field in fields(kind) if field.default is MISSING and values[field.name] is None
@@ -236,10 +238,10 @@ REASONS = {events.PAINLEVE: "too-strong", events.RIM_TOUCHES: "beyond-rim", even
 def _follow(row: Any, state: State, P: Record, t_end: float, how: _How) -> None:
     y, angles = preparing.beginning(state, 0.0, P)
     W, log, status = preparing.motion(y, angles), np.zeros(2 * MOST_EVENTS, LOG), ENDED
-    _, goes_on = preparing.start(W, P, state.theta)
+    _, goes_on = preparing.start(W, P, state)
     E = energy(W, P)
     begin(W, P, log, (1 - LAST) * t_end)
-    if goes_on and not carried(*W.modes) and not how.flies:
+    if goes_on and not carried(*W.modes) and not how.flies and state.z is None:
         events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
     elif goes_on:
         status = MORE
@@ -262,7 +264,7 @@ def _follow(row: Any, state: State, P: Record, t_end: float, how: _How) -> None:
     )
     row["F_z_least"], row["hops"] = T.F_z_least if np.isfinite(T.F_z_least) else np.nan, T.hops
     row["heat"], row["energy_error"] = W.y[at.HEAT], energy(W, P) + W.y[at.HEAT] - E
-    if not (P.law.radius > 0 or P.drag > 0 or P.delta > 0):
+    if not (P.law.pivots or P.drag > 0 or P.delta > 0):
         row["C_J_drift"] = T.drift / (abs(T.C_J) or 1.0)
     row["end"], row["reason"] = judged(bool(reason), on, T.least, T.most, not T.slips), reason
 

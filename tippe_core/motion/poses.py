@@ -33,12 +33,6 @@ def tilt(y: Array) -> float:
 
 
 @compiled
-def turn(x: float, y: float, c: float, s: float, out: Array) -> None:
-    """Writes the components of a vector (x, y) in space in the axes x, y turned by phi, c and s of phi, into out."""
-    out[0], out[1] = x * c + y * s, y * c - x * s
-
-
-@compiled
 def record(
     y: Array, t: float, turning: Turning, angles: Array, ball: int, stem: int, P: Record, C: Record, out: Record
 ) -> None:
@@ -50,16 +44,16 @@ def record(
     # q = p Rz(chi)
     size = 1 / np.sqrt(y[at.PX] ** 2 + y[at.PY] ** 2 + y[at.PZ] ** 2 + y[at.PW] ** 2)
     c, s = np.cos(y[at.CHI] / 2) * size, np.sin(y[at.CHI] / 2) * size
-    turn(y[at.PX], y[at.PY], c, s, out.quaternion)
-    turn(y[at.PZ], y[at.PW], c, s, out.quaternion[2:])
+    q = out.quaternion
+    q[0], q[1] = y[at.PX] * c + y[at.PY] * s, y[at.PY] * c - y[at.PX] * s
+    q[2], q[3] = y[at.PZ] * c + y[at.PW] * s, y[at.PW] * c - y[at.PZ] * s
     out.com[0], out.com[1], out.com[2] = y[at.X], y[at.Y], C.G[3]
     # from axes fixed in space to 1' and z cross 1'
     c, s, cos_theta, sin_theta = np.cos(phi), np.sin(phi), np.cos(theta), np.sin(theta)
-    turn(w[0], w[1], c, s, out.omega)
-    across = out.omega[1]
-    out.omega[1], out.omega[2] = cos_theta * across + sin_theta * w[2], cos_theta * w[2] - sin_theta * across
-    turn(C.G[0], C.G[1], c, s, out.velocity)
-    out.velocity[2] = C.G[2]
+    across, omega, velocity = w[1] * c - w[0] * s, out.omega, out.velocity
+    omega[0] = w[0] * c + w[1] * s
+    omega[1], omega[2] = cos_theta * across + sin_theta * w[2], cos_theta * w[2] - sin_theta * across
+    velocity[0], velocity[1], velocity[2] = C.G[0] * c + C.G[1] * s, C.G[1] * c - C.G[0] * s, C.G[2]
     rolls = ball != SLIP and stem != SLIP
     out.regime = AIR if ball == OPEN and stem == OPEN else ROLLING if rolls else SLIPPING
     rho_x, rho_y, N = P.a * e[0], P.a * e[1], 0.0
@@ -76,9 +70,8 @@ def record(
                 if not rolls:
                     ux, uy = ux + share * C.u[i, 0], uy + share * C.u[i, 1]
     out.contact[0], out.contact[1] = y[at.X] + rho_x, y[at.Y] + rho_y
-    turn(ux, uy, c, s, out.slip)
-    turn(Fx, Fy, c, s, out.force)
-    out.force[2] = 0.0 if -PULLS < N < 0.0 else N
+    out.slip[0], out.slip[1] = ux * c + uy * s, uy * c - ux * s
+    out.force[0], out.force[1], out.force[2] = Fx * c + Fy * s, Fy * c - Fx * s, (0.0 if -PULLS < N < 0.0 else N)
 
 
 @compiled

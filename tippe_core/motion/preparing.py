@@ -9,7 +9,7 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
 from . import at
-from .contacts import settle
+from .contacts import CLOSED, settle
 from .dynamics import arrange, turning
 from .friction import Friction
 from .kinds import STARTS
@@ -147,10 +147,17 @@ def on_table(W: Record, P: Record, i: int) -> None:
     W.y[at.VZ], W.y[at.Z] = W.contacts.G[2], W.contacts.G[3]
 
 
-def start(W: Record, P: Record, theta: float) -> tuple[int, bool]:
-    """Sets W.y on the contact that touches at the start, and the modes in which the motion continues. Returns that
-    contact; False beyond Painleve's limit."""
-    i = STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
+def start(W: Record, P: Record, state: State) -> tuple[int, bool]:
+    """Sets W.y on the contact that touches at the start, or in flight, and the modes in which the motion continues.
+    Returns the lower contact; False beyond Painleve's limit."""
+    i = STEM if P.stem and gap(P, np.cos(state.theta), np.sin(state.theta)) < 0 else BALL
+    if state.z is not None:
+        W.y[at.Z], W.y[at.VZ] = state.z, state.vz or 0.0
+        arrange(W.y, NO_ONE, OPEN, OPEN, P, W.contacts)
+        if (above := float(W.contacts.height[i])) < -CLOSED:
+            raise TopError("z", state.z, "z >= {least:.10g}", least=state.z - above)
+        if above > CLOSED:
+            return i, True
     return i, bool(started(W, P, i))
 
 

@@ -35,7 +35,7 @@ SAMPLE = kind(t=float, theta=float, phi=float, psi=float, quaternion=(4,), conta
               slip=(2,), force=(3,), velocity=(3,), heat=float, regime="i8")  # fmt: skip
 
 # A law of friction, friction.Law.
-LAW = kind(kind="i8", mu=float, mu_s=float, width=float, radius=float)
+LAW = kind(kind="i8", mu=float, mu_s=float, width=float, radius=float, pivots="?")
 
 # The constants of one motion. k = 1/I3 - 1/I1; b, h, q: of the stem's edge, if stem is 1; rim: cos(theta) where the
 # ball's surface ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.

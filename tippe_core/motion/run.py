@@ -197,7 +197,10 @@ def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]
             S.at[:] = S.z
         else:
             stepper.stage(S.z, S.K, stepper.A[s] if s < STAGES else stepper.B, s, h, S.at)
-        minor = stepper.stage_rates(W, P, slowest, s)
+        if W.steady:
+            minor = stepper.steady_rates(W, P, slowest, s)
+        else:
+            minor = rates(S.at, slowest, ball, stem, P, C, S.K[s])
         near = min(near, contacts.margin(S.at, minor, ball, stem, P, C))
     S.new[:], W.rated = S.at, 1
     return stepper.error(S.K, S.scale, h), near

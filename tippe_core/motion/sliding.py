@@ -135,22 +135,22 @@ def _moved(
     """slide() without a profile, after its arguments have been checked."""
     W = preparing.motion(*preparing.beginning(state, times[0], P))
     log, rows = np.zeros(2 * MOST_EVENTS, LOG), np.zeros(len(times), SAMPLE)
-    stands_on, goes_on = preparing.start(W, P, state.theta)
+    stands_on, goes_on = preparing.start(W, P, state)
     begin(W, P, log, np.inf)
     first = carried(*W.modes) if goes_on else 1 + stands_on
     if not goes_on:
         events.logged(W, log, events.PAINLEVE, OPEN, OPEN)
-    elif first == 0:
+    elif first == 0 and state.z is None:
         events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
-    if goes_on and (first or flies):
+    if goes_on and (first or flies or state.z is not None):
         _follow(top, W, P, log, times, rows, flies, progress)
     notes = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] == events.NOTES]
     entries = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] != events.NOTES]
     if not W.samples:
         _alone(W, P, stands_on, entries[0].name, rows[0])
     rows = rows[: max(W.samples, 1)]
-    finite = [np.isfinite(rows[name]).reshape(len(rows), -1).all(axis=1) for name in SAMPLE.names]
-    followed = np.append(np.all(finite, axis=0), np.isfinite(W.y).all())
+    fields = rows.view(float).reshape(len(rows), -1)  # all of a row at once; a regime looks like a number close to 0
+    followed = np.append(np.isfinite(fields).all(axis=1), np.isfinite(W.y).all())
     if not followed.all():
         raise TopError("friction", friction, "weaker friction for this top",
                        "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",

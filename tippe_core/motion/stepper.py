@@ -82,14 +82,12 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
 
 
 @compiled
-def stage_rates(W: Record, P: Record, slowest: int, s: int) -> float:
-    """Writes the rates at step.at into step.K[s]; where beta is kept steady, those at its steady value."""
+def steady_rates(W: Record, P: Record, slowest: int, s: int) -> float:
+    """Writes the rates at step.at into step.K[s], where beta is kept steady: those at its steady value."""
     S = W.step
-    if W.steady:
-        S.at[at.BETA] = steady_direction(W, P, slowest)[0]
+    S.at[at.BETA] = steady_direction(W, P, slowest)[0]
     minor = rates(S.at, slowest, W.modes[BALL], W.modes[STEM], P, W.contacts, S.K[s])
-    if W.steady:
-        S.K[s, at.BETA] = 0.0
+    S.K[s, at.BETA] = 0.0
     return minor
 
 
@@ -102,7 +100,10 @@ def densely(W: Record, P: Record, slowest: int, h: float) -> None:
     S, K, F = W.step, W.step.K, W.step.polynomial
     for s in range(3):
         stage(S.z, K, A_DENSE[s], STAGES + 1 + s, h, S.at)
-        stage_rates(W, P, slowest, STAGES + 1 + s)
+        if W.steady:  # otherwise beta diverges, and log|u| with it
+            steady_rates(W, P, slowest, STAGES + 1 + s)
+        else:
+            rates(S.at, slowest, W.modes[BALL], W.modes[STEM], P, W.contacts, K[STAGES + 1 + s])
     for i in range(16):
         moved = S.new[i] - S.z[i]
         F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])

@@ -86,6 +86,9 @@ class State:
     in (g/R)^1/2. x, y is the horizontal position of G in space (R), and vx, vy its horizontal velocity, in (gR)^1/2,
     along the axes x, y that turn with phi.
 
+    z and vz are the height of G above the table and its vertical velocity, for a start in flight of slide() or
+    slide_many(); None: on the table. The other functions do not know flights.
+
     x, y, vx, vy may be None; each function then makes its own choice (rolling: the contact point starts at the origin,
     and the velocity is that of rolling). Raises TopError if a value is not finite or exceeds 1e12, or if theta is not
     in [0, pi]. Where many motions are meant (slide_many), the fields may be arrays that broadcast; they are then
@@ -102,6 +105,8 @@ class State:
     y: float | None = None
     vx: float | None = None
     vy: float | None = None
+    z: float | None = None
+    vz: float | None = None
 
     def __post_init__(self) -> None:
         if has_arrays(self):
@@ -109,12 +114,15 @@ class State:
             return
         for field in fields(self):
             value = getattr(self, field.name)
-            if value is not None or field.name not in ("x", "y", "vx", "vy"):
+            if value is not None or field.default is not None:
                 object.__setattr__(self, field.name, finite(field.name, value))
                 if abs(getattr(self, field.name)) > LARGEST:
                     raise TopError(field.name, value, "at most {most:g} in size", code="too-large", most=LARGEST)
         if not 0 <= self.theta <= np.pi:
             raise TopError("theta", self.theta, "0 <= theta <= pi (rad)")
+        if self.vz is not None and self.z is None:
+            raise TopError("vz", self.vz, "None", "On the table it follows from the rest; give z too.",
+                           code="contradiction")  # fmt: skip
         if self.omega2 and self.theta in (0.0, np.pi):
             raise TopError("omega2", self.omega2, "0 on the vertical axis, where 2' has no direction",
                            "Give the whole horizontal angular velocity as theta_dot.", code="no-direction")  # fmt: skip
