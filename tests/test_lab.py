@@ -4,10 +4,10 @@ ended."""
 import numpy as np
 import pytest
 
-from app.model import arrival
+from app.model import arrival, run
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
 from app.model.keeps import KINDS, kinds
-from app.model.lab import ends, run
+from app.model.lab import ends
 from app.model.lab.lab import Lab, scene_of
 from app.model.life import FAR, LIFE, SECONDS, lived
 from app.model.run import motion_on, start_of, whole_on

@@ -12,8 +12,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.model import run
 from app.model.arrival import TILT, TOY
-from app.model.lab import ends, run
+from app.model.lab import ends
 from app.model.lab.ends import SPINS, ends_of, mixed
 from app.model.lab.lab import scene_of
 from app.model.life import SECONDS

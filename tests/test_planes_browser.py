@@ -44,9 +44,9 @@ def says(page, words):
 
 
 def the_first_look_says_that_only_sliding_turns_it_over(page, first):
-    says(page, r"^rough: does not turn over: in rolling")
-    says(page, r"^smooth: does not turn over")
-    says(page, r"^sliding: leans on ball and stem: 118\.8° at 5 s; past 90° at 2\.\d+ s")
+    says(page, r"^rough: Rolling, it does not turn over\.")
+    says(page, r"^ice: Without rubbing it does not turn over\.")
+    says(page, r"^ordinary: It leans and goes round\. 118\.8° at 5 s; past 90° at 2\.\d+ s")
     page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["ordinary"].t))
     shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
     for values, motion in zip(shown, first.motions.values(), strict=True):
