@@ -207,14 +207,12 @@ def _drifts(run, phase, nearer, sure):
     back = comings_back(tilt)[1 if sure else 0]
     if back < 2 and away >= 10 + (NEAR if sure else -NEAR):
         return True
-    pieces = [(phase.t0, phase.t1)] if sure else [(phase.t0, phase.t1), (run.start, run.end)]
-    size = 0.8 if sure else 0.0
-    for t0, t1 in pieces:
+    found, size = [], 0.8 if sure else 0.0
+    for t0, t1 in ((phase.t0, phase.t1), (run.start, run.end)):  # of the run: what comes next may undo it at once
         grid = run.t[run.inside(t0, t1)]
         inside = [(max(s, phase.t0), min(e, phase.t1)) for s, e in drifts(run, grid, t0, t1, nearer, sure)]
-        if _size([(s, e) for s, e in inside if e > s]) > size * (phase.t1 - phase.t0):
-            return True
-    return False
+        found.append(_size([(s, e) for s, e in inside if e > s]) > size * (phase.t1 - phase.t0))
+    return all(found) if sure else any(found)
 
 
 def _surely(run, phase, piece, nearer):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
+from app.model.families.__main__ import least
 from app.model.families.known_tops import PRESET_OF, known_of, known_tops
 from app.tabs.families.tops import Tops, sentence
 from tippe_core import PRESETS, figures
@@ -24,17 +25,25 @@ def test_every_preset_has_a_place_and_no_two_share_one():
     "name, said",
     [
         # 43.56 rad/s upright, and 41.61 for what it has to be launched with: physics.md
-        ("The paper's tippe top", f"not below {43.56 / (2 * np.pi):.1f} "),
+        ("The paper's tippe top", f"not below {43.56 / (2 * np.pi):.1f}."),
         # 27.668 and 76.761 rad/s with g = 9.82
-        ("Top S", f"not below {76.761 * (9.80665 / 9.82) ** 0.5 / (2 * np.pi):.1f} "),
+        ("Top S", f"not below {76.761 * (9.80665 / 9.82) ** 0.5 / (2 * np.pi):.1f}."),
         # Leine and Glocker's: standing is allowed from 19 turns a second on
-        ("Leine and Glocker's toy", "not below 19.0 "),
+        ("Leine and Glocker's toy", "not below 19.0."),
+        ("Leine and Glocker's toy", "in runs from 25.5 turns a second on"),
         ("Loaded sphere", "148° at most"),
         ("Uniform ball", "it prefers no tilt"),
     ],
 )
 def test_what_is_said_of_a_top_is_what_its_numbers_decide(name, said):
     assert said in sentence(next(top for top in known_tops() if top.name == name))
+
+
+@pytest.mark.slow
+def test_the_least_spin_is_that_of_runs():
+    """Stored; and none of the runs below it stands, whatever the bound for a point allows."""
+    name = "Leine and Glocker's toy"
+    assert next(top for top in known_tops() if top.name == name).stands_from == least(name)
 
 
 @pytest.fixture

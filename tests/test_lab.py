@@ -4,15 +4,16 @@ ended."""
 import numpy as np
 import pytest
 
-from app.model import arrival
+from app.model import arrival, run
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
+from app.model.events import first_times
 from app.model.keeps import KINDS, kinds
-from app.model.lab import ends, run
+from app.model.lab import ends
 from app.model.lab.lab import Lab, scene_of
 from app.model.life import FAR, LIFE, SECONDS, lived
 from app.model.run import motion_on, start_of, whole_on
 from app.model.setup import TABLES, TOYS
-from app.model.story import first_times, story
+from app.model.story import story
 from tippe_core import Contensou, State, slide, slide_many
 
 SHAPE = TOYS[TOY].shape

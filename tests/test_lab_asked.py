@@ -7,13 +7,14 @@ import pytest
 
 from app.model import life
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
+from app.model.events import first_times
 from app.model.lab.allowed import LIMITS
 from app.model.lab.ends import SPINS, Ends
 from app.model.lab.lab import Lab
 from app.model.run import whole_on
 from app.model.runs import Runs
 from app.model.setup import PATCH, TOYS
-from app.model.story import first_times, story
+from app.model.story import story
 from tippe_core import Contensou
 
 

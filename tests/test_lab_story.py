@@ -12,8 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.model import run
 from app.model.arrival import TILT, TOY
-from app.model.lab import ends, run
+from app.model.events import first_times
+from app.model.lab import ends
 from app.model.lab.ends import SPINS, ends_of, mixed
 from app.model.lab.lab import scene_of
 from app.model.life import SECONDS
@@ -21,7 +23,7 @@ from app.model.regimes import ENDS
 from app.model.run import motion_on, whole_on
 from app.model.runs import Stopped
 from app.model.setup import TABLES, TOYS
-from app.model.story import first_times, story
+from app.model.story import story
 from app.text import LANGUAGES, speaking
 from tippe_core import PRESETS, Contensou, State, TopError, slide
 

@@ -48,7 +48,7 @@ def told(law, at, end, time_stem=np.nan, hops=0.0):
         ("coulomb", RIGHT, ("rolling",), {"lies": "sticks"}),
         ("contensou", RIGHT, ("moving",), {"lies": "moving"}),
         ("contensou", RIGHT, ("leaning",), {"lies": "leans"}),
-        ("coulomb", RIGHT, ("upright",), {"lies": "sticks", "stays": "sticks"}),
+        ("coulomb", RIGHT, ("upright",), {"lies": "slow", "stays": "slow"}),
         ("contensou", RIGHT, ("upright",), {"lies": "slow", "stays": "slow"}),
         ("contensou", RIGHT, ("inverted",), {}),
     ],

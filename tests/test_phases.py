@@ -9,10 +9,13 @@ import pytest
 from said import faults, link, starts
 
 from app.model import tell
+from app.model.ends import NAMES
 from app.model.phases import KINDS, Samples, comes_back, phases
-from app.model.run import motion_on, whole_on
+from app.model.run import TooLong, motion_on, whole_on
+from app.model.setup import TOYS
 from app.model.story import story
 from app.text import LANGUAGES, listed
+from tippe_core import TopError
 
 PAPER, TOY, S = "The paper's tippe top", "Leine and Glocker's toy", "Top S"
 CONE, LOADED, BALL = "Wooden cone", "Loaded sphere", "Uniform ball"
@@ -106,6 +109,26 @@ def test_two_spells_beyond_120_are_not_one():
 def test_it_comes_back_by_five_degrees_after_as_many(knots, times):
     tilt = 50 + np.interp(np.linspace(0, len(knots) - 1, 200), np.arange(len(knots)), np.array(knots, float))
     assert comes_back(tilt) == times
+
+
+def test_the_words_of_many_runs_are_rows_of_the_judges_kinds():
+    """The table of docs/phases.md, over random starts."""
+    page = (Path(__file__).parent.parent / "docs" / "phases.md").read_text(encoding="utf-8")
+    rows = {
+        word: re.findall("`([a-z-]+)`", kinds) for word, kinds in re.findall(r"\| `([a-z]+)` \|[^|]*\|(.*)\|", page)
+    }
+    rows["moving"] = [kind for kind in KINDS if kind != "lies" and not kind.startswith("stands")]
+    assert {*rows} == {*NAMES}
+    random, seen = np.random.default_rng(5), set()
+    for _ in range(30):
+        toy, spin, tilt = random.choice([*TOYS]), random.uniform(0, 50), random.uniform(0, random.choice([60, 170]))
+        try:
+            motion = motion_on("ordinary", str(toy), spin, tilt, 0.02 * 40 ** random.random())
+        except (TopError, TooLong):
+            continue
+        if motion.ended_at is None:
+            seen.add((motion.ending.end, motion.phases[-1].kind))
+    assert len(seen) > 6 and all(kind in rows[word] for word, kind in seen), seen
 
 
 # ---- the arrival, and the cases in which the words were false ----

@@ -44,9 +44,9 @@ def says(page, words):
 
 
 def the_first_look_says_that_only_sliding_turns_it_over(page, first):
-    says(page, r"^rough: does not turn over: in rolling")
-    says(page, r"^smooth: does not turn over")
-    says(page, r"^sliding: leans on ball and stem: 118\.8° at 5 s; past 90° at 2\.\d+ s")
+    says(page, r"^rough: Rolling, it does not turn over\.")
+    says(page, r"^ice: Without rubbing it does not turn over\.")
+    says(page, r"^ordinary: It leans and goes round\. 118\.8° at 5 s; past 90° at 2\.\d+ s")
     page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["ordinary"].t))
     shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
     for values, motion in zip(shown, first.motions.values(), strict=True):
@@ -82,14 +82,14 @@ def three_tops_side_by_side_go_by_one_clock(page, first):
 def a_bad_value_is_said_and_nothing_is_lost(page):
     put(page, "tilt", 200)
     says(page, "tilt = 200 is not possible")
-    assert page.get_by_text(re.compile("^sliding: leans on ball and stem")).count()
+    assert page.get_by_text(re.compile("^ordinary: It leans and goes round")).count()
     put(page, "tilt", 10)
     page.get_by_text(re.compile("tilt = 200 is not possible")).wait_for(state="detached")
 
 
 def a_preset_sets_the_top_the_start_and_the_law_and_undo_takes_it_back(page):
     choose(page, "Hangs halfway")
-    says(page, r"^sliding: leans: 109\.\d° at 25 s.*; past 90° at 1\.99 s")
+    says(page, r"^ordinary: .* 109\.\d° at 25 s.*; past 90° at 1\.99 s")
     says(page, "Friction law in use: viscous")
     expect(field(page, "spin")).to_have_value("9.5493")
     # and the address follows without another gesture

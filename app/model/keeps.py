@@ -14,6 +14,7 @@ ROUNDING, TURNED = 1e-6, 0.05  # relative to the largest value so far
 # Less than a quarter has gone; the page says so. Rubbing while a toy turns over takes one or two hundredths of
 # Jellett's constant, but half of the energy, and turns Routh's around; later pivoting on the stem uses up Jellett's.
 NEARLY = 0.25
+BACK = 0.01  # of its range: what comes back by less only grows, or only falls
 TREND = 0.2  # relative to the range of the values
 
 
@@ -59,7 +60,9 @@ def kinds(values: Array, nearly: float = NEARLY, *, swings: bool = True) -> NDAr
     found = np.where(np.abs(values - values[0]) < nearly * most, KINDS.index("nearly"), KINDS.index("lost"))
     found[(np.abs(values) > TURNED * most) & (values * values[0] < 0)] = KINDS.index("zero")
     early, late = (float(half.mean()) if len(half) else np.inf for half in np.array_split(values, 2))
-    if swings and abs(late - early) < TREND * spread[-1] and spread[-1] < nearly * most[-1]:
+    steps = np.diff(values)
+    back = min(steps[steps > 0].sum(), -steps[steps < 0].sum()) > BACK * spread[-1]
+    if swings and back and abs(late - early) < TREND * spread[-1] and spread[-1] < nearly * most[-1]:
         found[:] = KINDS.index("swings")
     found[spread <= ROUNDING * most] = KINDS.index("kept")
     return found

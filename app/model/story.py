@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from app.model.events import first_times, happened
 from app.model.phases import SIDE, SPINS, Phase
 from app.model.regimes import WOULD_LIFT
 from app.model.run import TableMotion, Watched
@@ -17,10 +18,7 @@ from app.text import listed, say
 from tippe_core import thresholds
 from tippe_core.types import Array, Number
 
-TOLD = ("over", "stands-on-stem", "stands-upright", "stands-inverted", "falls", "tips-back", "lies")
-"""The phases whose beginnings are events."""
 STANDS = ("stands-on-stem", "stands-upright", "stands-inverted")
-LEANS, AT_ONCE = 1.0, 0.05  # s: so long a lean is an event too; what is so near is one event
 TENTH = (0.05, 0.15)  # degrees
 SAME, STEADY = 0.05, 0.5  # the share that is not called a change; degrees within which a tilt is called steady
 SMALL, NEAR = 0.005, 10.0  # the share of its energy that is not worth a word; degrees
@@ -64,31 +62,6 @@ def story(motion: TableMotion) -> Story:
         Event(t, code, *(word.format(part=part) for word in words[code])) for t, code in happened(motion) if t > 0.0
     )
     return Story(events, _Told(motion).stages(), "" if motion.table == "ordinary" else _caption(motion))
-
-
-def happened(motion: Watched) -> tuple[tuple[float, str], ...]:
-    """(t, code) of the events of a motion, in order: the beginnings of its phases, and those of its contacts."""
-    cuts = {*motion.cuts.values()}
-    goes = {} if motion.start.top.a > 0 else {"over": "goes"}  # without a heavy side below, nothing turns over
-    found = [(phase.start, goes.get(phase.kind, phase.kind)) for phase in motion.phases if phase.kind in TOLD]
-    found += [(phase.start, "leans") for phase in motion.phases
-              if phase.kind == "leans" and phase.end - phase.start > LEANS and phase.start not in cuts]  # fmt: skip
-    found += [(phase.start, "flies") for phase in motion.phases if phase.kind == "flies"][:1]
-    found += [(t, code) for code, t in motion.cuts.items()]
-    touch = motion.touches
-    if touch is not None and all(abs(t - touch) > AT_ONCE for t, code in found if code == "stands-on-stem"):
-        found.append((touch, "stem"))
-    if motion.ended_at is not None:
-        found.append((motion.ended_at, "flat" if motion.ended == "stands upright" else "ends"))
-    return tuple(sorted(found))
-
-
-def first_times(motion: Watched) -> dict[str, float]:
-    """{code: the time (s) at which it first happened}."""
-    found: dict[str, float] = {}
-    for t, code in happened(motion):
-        found.setdefault(code, t)
-    return found
 
 
 def _part(motion: Watched) -> str:

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from app.model.arrival import MU, SPIN, TABLE, TILT
+from app.model.events import first_times
 from app.model.run import TooLong, whole_on
-from app.model.story import first_times
 from app.text import say, told
 from tippe_core import Shape, TopError
 from tippe_core.types import Number

@@ -1,7 +1,9 @@
 """The tops with a name as points on the map of all tops, where a/R and I1/I3 decide which of them can turn over."""
 
+import json
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -13,6 +15,10 @@ from tippe_core import PRESETS, Preset, Thresholds, Top, thresholds
 from tippe_core.types import Array
 
 SAME = 5e-4  # in a/R and I1/I3: tops that are closer share one point
+
+
+FILE = Path(__file__).with_name("least_spins.json")
+"""Written by python -m app.model.families; a test computes one anew."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -34,8 +40,15 @@ class KnownTop:
         return thresholds(self.top)
 
     @property
-    def least_spin(self) -> float:
-        """The spin (rev/s) below which an upright top behaves as it does at rest; nan if no spin makes a difference."""
+    def stands_from(self) -> float:
+        """The least spin (rev/s) with which, in runs let go like the arrival's, it comes to stand turned over; nan if
+        none was made."""
+        return float(json.loads(FILE.read_text(encoding="utf-8")).get(self.name) or np.nan)
+
+    @property
+    def bound(self) -> float:
+        """The spin (rev/s) below which an upright top on a point behaves as it does at rest; nan if no spin makes a
+        difference."""
         limits = self.limits
         spins = [limits.upright.spin, limits.launch] if limits.group == "can invert" else [limits.upright.spin]
         return max(spins) * self.turn

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
+from app.model.phases import NODS, STANDS
 from app.model.run import Start, start_of
 from app.model.setup import PATCH, Toy
 from app.text import say
@@ -22,7 +23,7 @@ SPINS = np.linspace(0.0, 50.0, 101)  # rev/s: the whole range of the slider
 TIMES = np.arange(1.0, 6.01, 0.5)  # s: when it is checked whether the toy stands, because it may fall again
 LATER, LIFE = 2.0, 60.0  # s: then it is checked so often, and so long, of those of UNDECIDED that may come to stand
 UNDECIDED = ("leans", "upright")
-STANDS, LEANS = np.radians(170), np.radians(20)
+HIGH, LOW = np.radians(180 - STANDS[0]), np.radians(NODS)  # as the judge's phases
 CLOSE = 2  # cells: if the end changes again within so few, the ends are called mixed
 MOST = 64  # the number of Ends that are stored
 LOOKS = 0.2  # s between two checks of a page that waits for the result of another
@@ -147,7 +148,7 @@ def _may_stand(top: Top, last: list[Array]) -> Bools:
     turning = top.I1 * (theta_dot**2 + omega2**2) + top.I3 * omega3**2
     energy = (turning + vx**2 + vy**2 + rise**2) / 2 + 1 - top.a * np.cos(theta)
     change = thresholds(top).upright
-    stays = change.stable == "always" or (change.stable == "below") & (np.abs(omega3) < change.spin) & (theta < LEANS)
+    stays = change.stable == "always" or (change.stable == "below") & (np.abs(omega3) < change.spin) & (theta < LOW)
     return np.asarray((top.a > 0) & (energy > 1 + top.a) & ~np.asarray(stays))
 
 
@@ -160,11 +161,11 @@ class Row(NamedTuple):
 
 def codes_of(many: Many | Row) -> tuple[str, ...]:
     """The code of each row of runs; the runs in a row differ only in their length."""
-    high = many.theta_end > STANDS
+    high = many.theta_end > HIGH
     stands, inverted = ((high & (many.end == end)).any(axis=1) for end in ("stem", "inverted"))
     last = many.theta_end[:, -1]
     codes = np.select(
-        [stands, inverted, np.isnan(last), last > LEANS], ["stands", "inverted", "refused", "leans"], "upright"
+        [stands, inverted, np.isnan(last), last > LOW], ["stands", "inverted", "refused", "leans"], "upright"
     )
     return tuple(codes.tolist())
 

@@ -6,12 +6,12 @@ The words are in app/text, under the names of the steps.
 
 import numpy as np
 
+from app.model.events import first_times
 from app.model.lesson.parts import K_R, Answer, Guess, Step, at
 from app.model.lesson.rolling import jump, slip, ties, turning
 from app.model.lesson.runs import named
 from app.model.lesson.six import SIX, YOURS, asked
 from app.model.scene import Scene, solve
-from app.model.story import first_times
 
 
 def creep(scene: Scene) -> Answer:

@@ -6,11 +6,11 @@ No answers are stored: they are computed from the run that is shown.
 import numpy as np
 
 from app.model.colours import COLOURS
+from app.model.events import first_times
 from app.model.lesson.parts import Answer, Choice, Curve, Picture, Point, Step
 from app.model.lesson.runs import on_ball, on_table, own, proof, slipped
 from app.model.run import TableMotion
 from app.model.scene import Scene
-from app.model.story import first_times
 from tippe_core.types import Array
 
 UNSURE = "unsure"

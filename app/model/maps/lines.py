@@ -142,8 +142,6 @@ def _stays(asked: Map, across: float, up: float) -> str:
     excess, lost = _excess(asked, across, up)["leaves"], 0.0
     if not excess > 0:
         return "stable"
-    if asked.law == "coulomb":
-        return "sticks"
     if asked.law == "contensou":  # the torque of pivoting without slip is constant: 3 pi/16 mu F_z radius
         cell = asked.at(across, up)
         lost = 3 * np.pi / 16 * cell.friction.law.mu * cell.friction.law.width / cell.top.I3 * cell.t_end

@@ -5,12 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from app.model.events import happened
 from app.model.motion import Motion
 from app.model.phases import carried
 from app.model.planes.picture import SHORT
 from app.model.regimes import NAMES
 from app.model.run import TableMotion
-from app.model.story import happened
 from app.text import listed, say
 
 OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")

@@ -8,9 +8,11 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled
+from app.model.arrival import MU, TILT
 from app.model.build.dimensions import named as spoken_name
 from app.model.families.known_tops import KnownTop, known_of, known_tops
 from app.model.runs import Run, Runs, Stopped
+from app.model.setup import PATCH
 from app.state import asked
 from app.tabs.families.drawings import pair
 from app.text import listed, say
@@ -118,4 +120,5 @@ def sentence(top: KnownTop):
     group = top.limits.group
     key = {"rises part of the way": "part", "can invert": "turns", "never rises": "never", "neutral": "ball",
            "can stand upright": "stands", "never stands upright": "falls"}[group]  # fmt: skip
-    return say(f"family.tops.does.{key}", spin=top.least_spin, tilt=np.degrees(top.limits.rise))
+    return say(f"family.tops.does.{key}", spin=top.bound, tilt=np.degrees(top.limits.rise), runs=top.stands_from,
+               mu=MU, let_go=TILT, patch=PATCH)  # fmt: skip
