@@ -104,7 +104,7 @@ KINDS = {
 }  # fmt: skip
 
 
-@claims(rf"at {N} s (?:too little is left, and )?it ({'|'.join(KINDS)})")
+@claims(rf"at {N} s (?:too little is left, and )?it ({'|'.join(KINDS)})(?! flat)")
 def at_time(said, match):
     kinds = KINDS[match[2].lower()]
     starts = [one.t0 for one in said.run.phases if one.kind in kinds]
