@@ -125,3 +125,10 @@ def test_bad_input_is_named(name, call):
     with pytest.raises(TopError) as caught:
         call()
     assert caught.value.name == name
+
+
+@pytest.mark.parametrize(("spin", "tilt"), [(4.922, 47.70), (13.18, 87.1), (9.1, 120.3)])
+def test_a_uniform_ball_at_rest_but_for_its_spin_keeps_its_tilt(spin, tilt):
+    """Nothing acts on it; by rounding alone it seemed to turn, towards no turning point."""
+    start = State(np.radians(tilt), 0, 0, spin * 2 * np.pi * (0.02 / 9.81) ** 0.5)
+    assert glide(BALL, start, np.linspace(0, 10, 5)).theta == pytest.approx(np.radians(tilt), abs=1e-9)

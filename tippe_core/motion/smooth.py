@@ -207,6 +207,8 @@ def turning_cosines(
     root = max(B * B - 4 * A * C, Decimal(0)).sqrt()
     q = -(B + root if B >= 0 else B - root) / 2
     zeros = [x for x in ([q / A] if A else []) + ([C / q] if q else []) if (x > here) == (slope > 0)]
+    if not zeros:  # here is a double zero, and slope is its rounding
+        return here, here
     other = min(zeros, key=lambda x: abs(x - here))
     return (max(min(other, one), here), here) if slope > 0 else (here, min(max(other, -one), here))
 
