@@ -214,6 +214,19 @@ def test_without_its_stem_the_ball_alone_is_drawn(explorer, planes):
     assert np.allclose(np.hypot(*alone.T), 1, atol=1e-6)
 
 
+def test_a_top_that_coulombs_law_catches_leads_to_why(explorer, planes):
+    shown, view = (
+        [],
+        ThreePlanes({"plane": "ordinary"} | planes.inputs, *(None,) * 3, planes, None, lambda: shown.append(1)),
+    )
+    for law, leads in (("coulomb", True), ("contact", False), ("coulomb", True)):
+        planes.ask(law=law, spin=30.0, tilt=5.0, seconds=3.0)
+        view.show(planes.picture)
+        assert view._why.visible is leads
+    view._why.clicks += 1
+    assert shown == [1]
+
+
 def test_a_run_that_no_session_waits_for_is_not_followed_for_ever(planes):
     view = ThreePlanes({"plane": "ordinary"} | planes.inputs, None, None, None, SimpleNamespace(busy=True))
 

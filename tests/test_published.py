@@ -75,7 +75,7 @@ def test_what_is_opened_does_what_the_row_says():
         planes = Planes(explorer, None)
         planes.show()
         assert not planes.picture.messages
-        run = planes.picture.motions["sliding"].trajectory
+        run = planes.picture.motions["ordinary"].trajectory
         return run.theta.max(), [event for _, event in run.events]
 
     assert opened("cohen")[0] == pytest.approx(3.05, abs=0.05) and opened("lighter")[0] == pytest.approx(2.12, abs=0.01)

@@ -49,7 +49,8 @@ TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
 DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
-WHY = "arms"  # the step that says why rubbing lifts a top
+WHY = {"section": "lesson", "step": "arms"}  # why rubbing lifts a top
+WHY_NOT = {"section": "published"}  # why Coulomb's law alone does not
 PLAIN = ".tippe :is(.verdict, .scales, .time, .shows) { display: none !important }"
 
 
@@ -68,7 +69,7 @@ class House:
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
         self.pacer.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
-        self._learn, self._step = None, ""
+        self._learn, self._place = None, {}
         self.keep = kept(
             self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
         )
@@ -119,13 +120,13 @@ class House:
 
     def lab(self):
         figures = lambda: self._look_at(self.start.table("rough"))  # noqa: E731  (the paper's are of that table)
-        return lab_view(self.lab_of, lambda: self.rests(), figures, self._explain)
+        return lab_view(self.lab_of, lambda: self.rests(), figures, lambda: self._explain(**WHY))
 
-    def _explain(self):
-        """The lesson's step that says why rubbing lifts it."""
-        self._step = WHY
+    def _explain(self, **place):
+        """Shows this place of Learn."""
+        self._place = place
         if self._learn is not None:
-            self._learn.param.update(step=WHY, section="lesson")
+            self._learn.param.update(**place)
         self._look_at("learn")
 
     def roll(self):
@@ -169,7 +170,7 @@ class House:
         self.start.have(planes)
         inputs = {"plane": planes.plane} | planes.inputs
         view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes,
-                           self.playing)  # fmt: skip
+                           self.playing, lambda: self._explain(**WHY_NOT))  # fmt: skip
         planes.param.watch(lambda event: view.show(event.new), "picture")
         planes.param.watch(lambda event: view.refuse(event.new), "refusal")
         self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
@@ -211,8 +212,7 @@ class House:
         self._learn = learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
-        if self._step:
-            learn.step = self._step
+        learn.param.update(**self._place)
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
         return learn.view
 

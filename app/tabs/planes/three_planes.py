@@ -1,6 +1,7 @@
 """The room of the three planes: why a tippe top turns over, and that this needs sliding friction."""
 
 import panel as pn
+import panel_material_ui as pmui
 
 from app.bundle import pack
 from app.model.colours import COLOURS
@@ -11,9 +12,9 @@ from app.model.regimes import COLOUR, NAMES
 from app.model.setup import TABLES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.start_card import StartCard
-from app.tabs.planes.words import LOOKS, in_force, table_words, verdict_words
+from app.tabs.planes.words import LOOKS, in_force, is_caught, table_words, verdict_words
 from app.text import say, written
-from app.widgets.cards import card, first, framed, later, note, staged, swatch, words
+from app.widgets.cards import PLAIN, card, first, framed, later, note, on_click, staged, swatch, words
 from app.widgets.moments import Moments
 from app.widgets.top3d import Top3D, pack_frames
 
@@ -42,10 +43,11 @@ class ThreePlanes:
 
     inputs: the first inputs of a Planes, with its plane; ask: called with new ones; ask_top: called with inputs of the
     Explorer; choose: with the name of a body; work: the Planes' present run, with busy, elapsed, share and stop();
-    playing: the Playing of the rolling top, which the motions here follow.
+    playing: the Playing of the rolling top, which the motions here follow; explain: shows why Coulomb's law
+    catches a top.
     """
 
-    def __init__(self, inputs, ask, ask_top, choose, work, playing=None):
+    def __init__(self, inputs, ask, ask_top, choose, work, playing=None, explain=None):
         self._ask, self._ask_top, self._choose_body, self._work = ask, ask_top, choose, work
         self._poll, self._picture, self._plane = None, None, inputs["plane"]
         self._playing = playing or Playing()
@@ -63,6 +65,10 @@ class ThreePlanes:
         follow_clock(self._figures, self._well)
         self._start = StartCard(inputs, ask, self._choose, lambda: work.stop())
         self._verdict, self._table = words(note(say("planes.run.first")), style=TABLE), words(style=TABLE)
+        self._why = pmui.Button(
+            label=say("planes.caught"), variant="text", size="small", sx=PLAIN, visible=False, margin=0
+        )
+        on_click(self._why, lambda event: explain())
         self._force = words(styles={"min-height": "36px"})
         self._build()
 
@@ -103,7 +109,7 @@ class ThreePlanes:
         for part in (happened, well):  # where the type is large
             part.styles = part.styles | {"overflow": "auto"}
         below = pn.Column(happened, well, sizing_mode="stretch_width", margin=0, stylesheets=[BESIDE])
-        became = card(say("planes.cards.became"), self._verdict, self._table, height="max-content")
+        became = card(say("planes.cards.became"), self._verdict, self._why, self._table, height="max-content")
         self.main = staged([self._stage_card(), later(below, 1)], [became, self._start.view, later(
             self._times_card(), 1), later(tops, 1)])  # fmt: skip
 
@@ -183,6 +189,7 @@ class ThreePlanes:
             if not self._work.busy:
                 self._age("last" if picture.is_old else "")
             self._verdict.object = verdict_words(picture)
+            self._why.visible = is_caught(picture)
             if self._shown is not settings:
                 self._figures.show(picture)
                 self._map.show(settings.top)

@@ -13,6 +13,7 @@ from app.model.story import story
 from app.text import listed, say, written
 from app.widgets.cards import swatch
 from app.widgets.typeset import power
+from tippe_core import Coulomb
 
 # The colour of each plane, the same in all pictures of this room.
 LOOKS = {"ordinary": COLOURS["friction"], "rough": COLOURS["normal"], "ice": COLOURS["jellett"]}
@@ -58,6 +59,14 @@ def happens(event, settings):
 
 
 # ---- how the motion ended ----
+
+
+def is_caught(picture):
+    """Whether Coulomb's law at a point held the top before it was past 90 degrees, and it rolls on."""
+    sliding = picture.motions.get("ordinary")
+    if sliding is None or not isinstance(picture.friction, Coulomb):
+        return False
+    return bool(sliding.trajectory.regime[-1] == "roll" and np.isnan(sliding.trajectory.time_90))
 
 
 def fate(picture, plane):
