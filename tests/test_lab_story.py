@@ -110,7 +110,8 @@ def test_the_papers_top_hangs_on_no_stem_and_is_caught():
 def test_the_strip_of_the_toy_leans_and_then_stands():
     """With elastic contacts: never at 22.3 rev/s, always from 27.06 on."""
     found = ends.known_ends(TOY, TILT, 0.3)  # which ships; a test computes it anew
-    assert [segment.code for segment in found.segments] == ["upright", "leans", "stands"]
+    # just where it begins to lean the runs end by turns on either side of the judge's limit
+    assert [each.code for each in found.segments if each.code != "mixed"] == ["upright", "leans", "stands"]
     assert 22.3 < found.segments[-1].least < 27.06
     assert found.segments[0].least == 0 and found.segments[-1].most == 50
     assert all(a.most == b.least for a, b in zip(found.segments, found.segments[1:], strict=False))

@@ -152,7 +152,7 @@ class Share(param.Parameterized):
         ]
         self._head.param.update(link=link, picture=picture, said=[each for each in said if each])
         if not self._busy():  # else the files are still those of the previous motion, with its own link
-            self._files.show(self._scene, {shown.name: shown for shown in self._shown()}, link)
+            self._files.show(self._scene, {shown.table: shown for shown in self._shown()}, link)
             self._saves.visible = True
 
     def _rolls(self):

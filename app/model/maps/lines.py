@@ -144,5 +144,5 @@ def _stays(asked: Map, across: float, up: float) -> str:
         return "stable"
     if asked.law == "contensou":  # the torque of pivoting without slip is constant: 3 pi/16 mu F_z radius
         cell = asked.at(across, up)
-        lost = 3 * np.pi / 16 * cell.friction.law.mu * cell.friction.law.width / cell.top.I3 * cell.t_end
+        lost = 3 * np.pi / 16 * cell.friction.law.mu * cell.friction.law.radius / cell.top.I3 * cell.t_end
     return "pivoting" if excess < lost else "slow"
