@@ -108,7 +108,10 @@ def visit(one):
             return undo.disabled && Bokeh.documents[0].is_idle
                 && Object.entries(first).every(([name, value]) => now[name] == value) }}""",
         arg=[page.get_by_role("button", name="Undo").element_handle(), one.first], polling=200)  # fmt: skip
-    page.locator("[data-figure=plane]").first.scroll_into_view_if_needed()
+    # all of it, wherever another test has scrolled to
+    page.locator("[data-figure=plane]").first.evaluate(
+        "element => element.scrollIntoView({block: 'center', behavior: 'instant'})"
+    )
     return one
 
 
