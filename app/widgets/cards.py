@@ -89,6 +89,13 @@ def note(text):
     return f'<div class="note">{text}</div>' if text else ""
 
 
+def tall(*cards):
+    """A column of a grid with its own height: its cards are higher than a phone's page, and the next column would hide
+    them."""
+    styles = {"gap": "12px", "height": "max-content", "max-height": "none"}
+    return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
+
+
 def on_click(button, act):
     """Calls act(event) when the button is clicked; all changes that it makes on the page are sent as one message.
 

@@ -21,6 +21,12 @@ FILE = Path(__file__).with_name("least_spins.json")
 """Written by python -m app.model.families; a test computes one anew."""
 
 
+@cache
+def _least_spins() -> dict[str, float | None]:
+    found: dict[str, float | None] = json.loads(FILE.read_text(encoding="utf-8"))
+    return found
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class KnownTop:
     """A top with a name. outline (n, 2): the radius and the height of its surface, in R. turn: rev/s in one
@@ -43,7 +49,7 @@ class KnownTop:
     def stands_from(self) -> float:
         """The least spin (rev/s) with which, in runs let go like the arrival's, it comes to stand turned over; nan if
         none was made."""
-        return float(json.loads(FILE.read_text(encoding="utf-8")).get(self.name) or np.nan)
+        return _least_spins().get(self.name) or np.nan
 
     @property
     def bound(self) -> float:

@@ -2,7 +2,6 @@
 that open them."""
 
 import numpy as np
-import panel as pn
 import param
 
 from app.bundle import Bundled, pack
@@ -11,7 +10,7 @@ from app.model.colours import COLOURS
 from app.model.runs import Run
 from app.state import names
 from app.text import listed, say
-from app.widgets.cards import card, grid, words
+from app.widgets.cards import card, grid, tall, words
 
 DRAWN = {"coulomb": ("#5b6875", ""), "smoothed": (COLOURS["theta"], "dashed"), "patch": (COLOURS["normal"], ""),
          "stepped": ("#c0392b", "dotted")}  # fmt: skip
@@ -25,11 +24,11 @@ class Steps(Bundled):
 
     @classmethod
     def says(cls, language=None):
-        own, numbers = listed("published.view", language), listed("lab_view.view", language)
+        drawn, decimal = listed("learn.pictures", language), say("lab_view.view.decimal", language)
         return super().says(language) | {
-            "steps": own,
-            "decimal": numbers["decimal"],
-            "drawn": listed("learn.pictures", language),
+            "steps": listed("published.view", language),
+            "decimal": decimal,
+            "drawn": drawn,
         }
 
 
@@ -81,8 +80,7 @@ def published_view(runs):
 
     why = (words(f"<p style='margin: 0 0 6px'>{say('published.page.cohen')}</p>"), steps_view(runs),
            words(f"<p style='margin: 6px 0 0'>{say('published.page.why')}</p>"))  # fmt: skip
-    left = pn.Column(carded("question", *why), carded("explanations", words(explanations)), sizing_mode="stretch_width",
-                     margin=0, styles={"gap": "12px", "height": "max-content", "max-height": "none"})  # fmt: skip
+    left = tall(carded("question", *why), carded("explanations", words(explanations)))
     return grid(
         left, carded("results", words(f"<p style='margin: 0 0 12px'>{say('published.page.intro')}</p>{results}"))
     )

@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 from app.model.lesson import lesson
 from app.state import names
 from app.text import listed, say
-from app.widgets.cards import PLAIN, card, grid, on_click, px, words
+from app.widgets.cards import PLAIN, card, grid, on_click, px, tall, words
 
 
 def link(step):
@@ -40,11 +40,6 @@ def teach_view(present, close):
         f"<dt style='margin-top: 6px'>{row['asked']}</dt><dd style='margin: 0 0 0 16px' class='key'>{row['here']}</dd>"
         for row in listed("teach.olympiad")
     )
-
-    def tall(*cards):
-        # its own height: these cards are higher than a phone's page, and the next column would cover them
-        styles = {"gap": "12px", "height": "max-content", "max-height": "none"}
-        return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
 
     def carded(key, content):
         return card(say(f"teach.page.{key}"), words(content), height="max-content")
