@@ -9,7 +9,8 @@ from urllib.parse import urljoin
 
 import numpy as np
 import pytest
-from lab_page import DRAWN, TIME, TOPS
+from lab_page import DRAWN, TIME, TOPS, entry
+from playwright.sync_api import expect
 from watching import LOST
 
 from app.page import first
@@ -114,4 +115,21 @@ def test_it_moves_before_bokeh_comes_and_the_session_takes_over_what_a_hand_made
     rest = ["bokeh.min.js", "panel.min.js", *(name.split("?")[0].lstrip(".") for name in others)]
     assert min(place("asked", name) for name in rest) > needed
     assert not [url for _, kind, url in order if kind == "font"]
+    page.close()
+
+
+@pytest.mark.served
+def test_who_types_while_the_session_comes_types_on(server, chromium):
+    page, held = chromium.new_page(viewport={"width": 1400, "height": 900}), []
+    page.route("**/bokeh.min.js*", lambda route: held.append(route))
+    page.goto(f"{server}?", wait_until="commit")
+    page.wait_for_function(DRAWN)
+    entry(page, "Friction").fill("0.1")
+    held[0].continue_()
+    page.locator("#first").wait_for(state="detached")
+    page.wait_for_function("Bokeh.documents.some((doc) => doc.is_idle)")
+    expect(entry(page, "Friction")).to_be_focused()
+    page.keyboard.type("2")
+    page.keyboard.press("Enter")
+    page.wait_for_url("**mu_k=.12*")
     page.close()

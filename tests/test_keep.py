@@ -6,6 +6,7 @@ from dataclasses import fields, replace
 from urllib.parse import urlencode
 
 import numpy as np
+import param
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -247,6 +248,32 @@ def test_a_view_made_later_gets_its_part_of_the_link():
     other.place = [2.0, 2.0]
     keep.at_rest()
     assert keep.sentence == ""
+
+
+def test_what_was_open_is_opened_again_and_nothing_else_changes():
+    class Rooms(param.Parameterized):
+        room, level = param.String("lab"), param.String("explore")
+
+    class Learn(param.Parameterized):
+        step, section, room = param.String("flips"), param.String("lesson"), param.String("")
+
+    rooms, learn, (explorer, _) = Rooms(), Learn(), explorer_of({})
+    keep = kept(explorer)
+    keep.add(rooms, lambda rooms: {"room": None, "level": None})
+    lab = keep.where
+    explorer.K_J = 6.0
+    keep.at_rest()
+    assert keep.where == lab
+    rooms.room = "learn"
+    keep.at_rest()
+    before, learn.step = keep.where, "way"
+    keep.add(learn)
+    keep.at_rest()
+    assert len({lab, before, keep.where}) == 3
+    keep.visit(before)
+    assert (rooms.room, learn.step, keep.where) == ("learn", "flips", before)
+    keep.visit("tab=nowhere&level=explore&step=way&KJ=3")
+    assert (rooms.room, rooms.level, learn.step, explorer.K_J) == ("learn", "explore", "way", 6.0)
 
 
 def test_every_input_of_the_explorer_is_kept():

@@ -1,4 +1,4 @@
-"""Explore, Research and back in Chromium."""
+"""Explore, Research and back, and the browser's history, in Chromium."""
 
 import pytest
 from axe import DARK, check
@@ -16,6 +16,29 @@ def level(page, name):
 
 def table(page):
     return page.locator(".rooms [role=radio][aria-checked=true]")
+
+
+def test_rooms_and_steps_of_the_lesson_are_entries_of_the_history(server, chromium):
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
+        page = come(context.new_page(), f"{server}?").page
+        put(page, "Friction", "0.12")
+        page.wait_for_url("**mu_k=.12*")
+        page.get_by_text("Learn", exact=True).locator("visible=true").first.click()
+        page.wait_for_url("**tab=learn*")
+        step = page.locator("[aria-current=step]")
+        first = step.get_attribute("title")
+        page.locator("li button:not([aria-current])").locator("visible=true").first.click()
+        page.wait_for_url("**step=*")
+        second = step.get_attribute("title")
+        assert second != first
+        page.go_back()
+        expect(step).to_have_attribute("title", first)
+        page.go_back()
+        expect(entry(page, "Friction").first).to_be_visible()
+        page.wait_for_url("**mu_k=.12&tab=lab")  # what was set stays
+        page.go_forward()
+        page.go_forward()
+        expect(step).to_have_attribute("title", second)
 
 
 def test_explore_research_explore_changes_nothing(server, chromium):

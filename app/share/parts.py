@@ -6,10 +6,14 @@ from app.bundle import Bundled
 
 
 class Address(Bundled):
-    """The page's own address and keys: sets its query to `search` without adding to the browser's history, and tells
-    whether a hand is down and which gesture it makes."""
+    """The page's own address, history and keys: sets its query to `search`, which is a new entry of the browser's
+    history where `where` changes, and tells whether a hand is down and which gesture it makes."""
 
     search = param.String(default="", doc="the part after the path; written to the address bar")
+    where = param.String(default="", doc="what is open; any text")
+    visited = param.List(
+        default=[], doc="[count, where] when the browser's Back or Forward was used; the browser writes it"
+    )
     page = param.String(default="", doc="the address without it, prefix included; the browser writes it")
     held = param.Boolean(
         default=False, doc="whether a mouse button or finger is down; the browser writes it, like all below"

@@ -62,16 +62,17 @@ class Share(param.Parameterized):
         self._files = None
         self.keep.add(Clock(playing))
         self.keep.add(playing)
-        self.address = Address(search=self.keep.query, width=0, height=0, margin=0)
-        at_once(self.address, "held", "gesture", "undone", "redone", "page")
+        self.address = Address(search=self.keep.query, where=self.keep.where, width=0, height=0, margin=0)
+        at_once(self.address, "held", "gesture", "undone", "redone", "page", "visited")
         self._notice = pn.Column(sizing_mode="stretch_width", margin=0)
         self._waiting, self._changed_at = False, 0.0
         self.keep.param.watch(self._changed, "changed")
         self.keep.param.watch(self._say, "sentence")
         self._say()
-        self.keep.param.watch(self._kept, "query")
+        self.keep.param.watch(self._kept, ["query", "where"])
         self.address.param.watch(lambda event: self.keep.undo(), "undone")
         self.address.param.watch(lambda event: self.keep.redo(), "redone")
+        self.address.param.watch(lambda event: self.keep.visit(event.new[1]), "visited")
         self.panel = pn.Column(sizing_mode=None, margin=0, visible=False, stylesheets=[PLACE])
         self.main = [self._notice, self.address, self.panel]
         self._kept()
@@ -114,6 +115,7 @@ class Share(param.Parameterized):
         self.refresh()
 
     def _kept(self, *events):
+        self.address.where = self.keep.where  # first: its entry of the history is new, and then gets the query
         self.address.search = self.keep.query
         self.refresh()
 

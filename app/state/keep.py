@@ -15,7 +15,7 @@ from app.model.explorer import Explorer
 from app.model.start import arrives
 from app.state import asked, older
 from app.state.codecs import Body, Number
-from app.state.names import SECRET, VERSION_NAME, of, query
+from app.state.names import NAMES, SECRET, VERSION_NAME, of, query
 from app.text import say, told
 from tippe_core import TopError
 
@@ -130,6 +130,7 @@ class Keep(param.Parameterized):
     """
 
     query = param.String(default="", doc="the state, from the question mark on; empty if all of it is the default")
+    where = param.String(default="", doc="the part of the state that says what is open, as a query")
     can_undo = param.Boolean(default=False, doc="whether there is a step back")
     can_redo = param.Boolean(default=False, doc="whether there is a step forward")
     sentence = param.String(default="", doc="the errors in the link, until something is changed")
@@ -206,6 +207,21 @@ class Keep(param.Parameterized):
         """One step forward."""
         self._go(self._at + 1)
 
+    def visit(self, where):
+        """Opens what was open before, given as `where`; what cannot be read opens the default."""
+        texts = read(f"{VERSION_NAME}={VERSION}&{where}")[0]
+        waiting = {key: text for key, text in texts.items() if key in NAMES and NAMES[key].where}
+        for part in self._parts:
+            known = {parameter: name for parameter, name in part.known.items() if name.where}
+            found = values(waiting, known)[0]
+            usual = part.usual(part.owner)
+            first = {name: usual[name] for name in known if usual.get(name) is not None}
+            part.owner.param.update(**first | found)
+            for name in known.values():
+                waiting.pop(name.key, None)
+        self._texts |= waiting
+        self._write()
+
     def _go(self, to):
         if not 0 <= to < len(self._steps):
             return
@@ -223,7 +239,9 @@ class Keep(param.Parameterized):
                 for name, value in part.state().items()
                 if not same(value, first[name])
             }
-        texts = self._shortest(texts | self._texts)
+        texts |= self._texts
+        self.where = query({key: texts[key] for key in sorted(texts) if key in NAMES and NAMES[key].where})
+        texts = self._shortest(texts)
         self.param.update(
             query=query({VERSION_NAME: str(VERSION)} | texts) if texts else "",
             can_undo=self._at > 0,

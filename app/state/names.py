@@ -33,13 +33,15 @@ address."""
 
 @dataclass(frozen=True)
 class Name:
-    """key: the name in the address; owner: the class whose parameter it stores; codec: one of codecs.py."""
+    """key: the name in the address; owner: the class whose parameter it stores; codec: one of codecs.py; where:
+    whether it says what is open, so that a change of it is an entry of the browser's history."""
 
     key: str
     owner: str
     parameter: str
     codec: Any
     undoable: bool = True
+    where: bool = False
 
 
 def _words(*words):
@@ -91,8 +93,8 @@ ROWS = (
     Name("L", "Playing", "show_momentum", _SWITCH, undoable=False),
     Name("follow", "Playing", "follow", _SWITCH, undoable=False),
     # the page
-    Name(TAB, "Rooms", "room", _words(*ROOMS), undoable=False),
-    Name(LEVEL, "Rooms", "level", _words(*LEVELS), undoable=False),
+    Name(TAB, "Rooms", "room", _words(*ROOMS), undoable=False, where=True),
+    Name(LEVEL, "Rooms", "level", _words(*LEVELS), undoable=False, where=True),
     Name("face", "Controls", "face", _words("constants", "state"), undoable=False),
     Name("dark", "Look", "dark", _SWITCH, undoable=False),
     Name("large", "Look", "large", _SWITCH, undoable=False),
@@ -104,8 +106,8 @@ ROWS = (
     # data of a film
     Name("film", "Filmed", "film", Film, undoable=False),
     # lessons
-    Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False),
-    Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False),
+    Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False, where=True),
+    Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False, where=True),
     Name(SECRET, "Learn", "room", Key, undoable=False),
 )
 NAMES = {row.key: row for row in ROWS}

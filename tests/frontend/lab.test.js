@@ -104,7 +104,7 @@ test("the track is the contact of each frame, in seconds and R", () => {
 });
 
 const BEFORE = { inputs: { spin: { name: "Spin" }, mu: { name: "Friction" } }, toy: "Top", decimal: ".",
-  changed: "{name}: {from} → {to}", changed_why: "Now: {now}. Before: {before}." };
+  changed: "{name}: {from} → {to}", compared: "{changed}. Before: {before}." };
 const scene = (spin, mu, events, table = "ordinary") => ({ table, runs: {}, run: { events, stages: [[0, "", "", "Nods"]], why: "" },
   state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`], table: [table, `Table ${table}`, "Table"] }, runs: {} } });
 
@@ -116,8 +116,7 @@ test("the earlier run is the one before the gesture, until it is dismissed or re
   assert.equal(before.follow(slow, middle).what, "Spin 20.0 rev/s");
   before.touch("spin", middle, 0, 500); // the same gesture
   const found = before.follow(middle, fast);
-  assert.equal(found.headline, "Spin: 20.0 rev/s → 28.0 rev/s");
-  assert.equal(found.why, "Now: stands on its stem (1.5 s). Before: Nods.");
+  assert.equal(found.compared, "Spin: 20.0 rev/s → 28.0 rev/s. Before: Nods.");
   const asked = [];
   before.goBack((...wish) => asked.push(wish), fast);
   assert.deepEqual(asked, [["spin", 20]]);
@@ -133,7 +132,7 @@ test("the earlier run is the one before the gesture, until it is dismissed or re
   before.follow(slow, fast);
   const rough = before.follow(fast, scene(28, 0.3, [], "rough"));
   assert.equal(rough.what, "Table ordinary");
-  assert.equal(rough.headline, ""); // the stage says what another table does
+  assert.equal(rough.compared, ""); // the stage says what another table does
   assert.equal(rough.table, "ordinary");
   assert.equal(before.follow(scene(28, 0.3, [], "rough"), scene(28, 0.3, [], "three")), null);
 });

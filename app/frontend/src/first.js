@@ -41,9 +41,10 @@ export async function first(numbers, language) {
 export function renderFirst({ model, el, view }) {
   isLate = true;
   if (!early) return renderLab({ model, el, view });
-  const { values, become, place, ...was } = early;
+  const { values, become, place, ...was } = early, focused = place.shadowRoot?.activeElement;
   early = null;
   pace.rest = REST;
+  for (const type of ["change", "blur"]) place.shadowRoot?.addEventListener(type, (event) => event.stopPropagation(), true); // moving is not leaving
   place.remove();
   if (JSON.stringify(model.texts) !== JSON.stringify(values.texts)) {
     was.view.tippe?.dispose();
@@ -52,7 +53,16 @@ export function renderFirst({ model, el, view }) {
   el.replaceChildren(...was.el.childNodes);
   view.tippe = was.view.tippe;
   become(model);
+  if (focused instanceof HTMLElement) focusAgain(focused);
   whenHeard(() => view.tippe?.hold?.(false));
+}
+
+// Who was typing types on.
+/** @param {HTMLElement} element */
+function focusAgain(element) {
+  if (document.activeElement !== document.body) return; // went elsewhere meanwhile
+  if (element.isConnected) element.focus({ preventScroll: true });
+  else setTimeout(() => focusAgain(element), SOON);
 }
 
 // If the server hears something before the page has reported that it is complete, it answers only after the next

@@ -183,6 +183,8 @@ interface SaidModel extends Model {
 
 interface AddressModel extends Model {
   search: string;
+  where: string;
+  visited: [count: number, where: string] | [];
   page: string;
   held: boolean;
   gesture: number;

@@ -67,12 +67,11 @@ export class Before {
   words(what, run, next) {
     const { texts } = this, said = (name) => texts.inputs[name]?.name ?? next.state.of[name][2] ?? texts.toy;
     const value = (scene, name) => scene.state.of[name][1].replace(`${said(name)} `, "");
-    const headline = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
+    const changed = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
     const isTable = what.includes("table"); // then the stage says enough
     return {
       canGoBack: !what.includes("toy") || run.state.toy === run.state.of.toy?.[0], // a body without a name cannot be requested
-      what: what.map((name) => run.state.of[name][1]).join(", "), headline: isTable ? "" : headline,
-      why: say(texts, texts.changed_why, { now: this.end(next), before: this.end(run) }),
+      what: what.map((name) => run.state.of[name][1]).join(", "), compared: isTable ? "" : say(texts, texts.compared, { changed, before: this.end(run) }),
     };
   }
 

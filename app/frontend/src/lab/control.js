@@ -28,7 +28,10 @@ export class Control {
     } });
     this.number = part("input", {
       class: "num", inputmode: "decimal", "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
-      oninput: () => (this.isTyping = true), onblur: () => (this.isTyping = false), onchange: () => this.type(),
+      oninput: () => (this.isTyping = true), onchange: () => this.commit(), onblur: () => this.commit(),
+      onkeydown: ({ key }) => {
+        if (key === "Enter") this.commit();
+      },
     });
     this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
     this.below = part("div", { class: "below" });
@@ -36,7 +39,9 @@ export class Control {
       part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.wrong);
   }
 
-  type() {
+  // Requests what was typed, once. An element that was moved in the page raises no "change".
+  commit() {
+    if (!this.isTyping) return;
     this.isTyping = false;
     const value = read(this.number.value);
     this.ask(this.name, Number.isFinite(value) ? value : this.number.value);

@@ -79,7 +79,7 @@ const places = `
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
-  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link { min-height: var(--touch); } .say .link + .link { display: none; }
+  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link, .say .small .link { min-height: var(--touch); }
   .dock { order: 1; position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
   :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
@@ -132,7 +132,7 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; }
 .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
 .say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
-.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; }
+.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; } .say .small .link { min-height: 0; }
 @container (max-width: 1180px) { .outline { max-width: 230px; } }
 @container (max-width: 700px) {
   /* on the stage, and as long in sight as that */

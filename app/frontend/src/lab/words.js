@@ -1,4 +1,4 @@
-// What happens now and why, and where to go next.
+// What happens now and why, above it what was changed, and where to go next.
 import { latest } from "./curves.js";
 import { part, say } from "./parts.js";
 
@@ -10,6 +10,7 @@ export class Words {
     this.texts = texts;
     this.headline = part("p", { class: "big" });
     this.why = part("span");
+    this.compared = part("span");
     this.back = part("button", { class: "link", type: "button", hidden: true, onclick: back }, texts.go_back);
     this.next = part("button", { class: "outline", type: "button", onclick: () => {
       const to = NEXT[this.scene.table];
@@ -17,7 +18,8 @@ export class Words {
     } });
     this.lesson = part("button", { class: "link", type: "button", hidden: true, onclick: () => ask("why", "") });
     // A screen reader hears it once a stage, not at each frame.
-    this.element = part("section", { class: "say" }, part("div", { role: "status" }, this.headline, part("p", {}, this.why, " ", this.back, this.lesson)), this.next);
+    this.element = part("section", { class: "say" }, part("div", { role: "status" }, part("p", { class: "small" }, this.compared, " ", this.back),
+      this.headline, part("p", {}, this.why, " ", this.lesson)), this.next);
   }
 
   show(scene) {
@@ -27,6 +29,7 @@ export class Words {
     const isLifted = scene.table === "three" || (scene.run?.events ?? []).some(([, code]) => code === "over");
     this.lesson.textContent = (isLifted && texts.whys[scene.table]) || "";
     this.said = undefined;
+    this.compared.textContent = scene.before?.compared ?? "";
   }
 
   /** @param {number} t */
@@ -35,11 +38,11 @@ export class Words {
     let said = latest(scene.run?.stages ?? [], t)?.slice(1, 3) ?? ["", scene.run?.why ?? ""];
     if (scene.table === "three") said = state.said;
     const { before } = scene;
-    if (before?.headline) said = [before.headline, before.why];
-    this.back.hidden = !before?.canGoBack || Boolean(state.old);
+    this.compared.parentElement.hidden = !before?.compared || Boolean(state.old);
+    this.back.hidden = !before?.canGoBack;
     if (scene.waits) said = [say(texts, texts.working, { what: state.wants }), say(texts, texts.working_why, { what: state.old })];
     else if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];
-    this.lesson.hidden = !this.lesson.textContent || !this.back.hidden || scene.waits || Boolean(state.old);
+    this.lesson.hidden = !this.lesson.textContent || scene.waits || Boolean(state.old);
     const key = said.join();
     if (key === this.said) return;
     this.said = key;

@@ -1,5 +1,5 @@
-// The page's address and keys. The address contains what a person has set, without adding steps to the browser's
-// history.
+// The page's address, history and keys. The address contains what a person has set; a room, a level or a step of the
+// lesson that was opened is an entry of the browser's history.
 import { onLettingGo } from "./press.js";
 
 const MUTE = ["Control", "Shift", "Alt", "Meta", "Tab"]; // keys that change nothing by themselves
@@ -37,9 +37,21 @@ export function renderAddress({ model }) {
     } else if ((!writing || event.key === "Enter") && !event.repeat && !MUTE.includes(event.key)) down();
   };
   window.addEventListener("keydown", onKey, options);
-  const write = () => history.replaceState(history.state, "", location.pathname + model.search + location.hash);
+  let visiting = ""; // what Back or Forward has requested
+  const write = () => {
+    if (visiting === model.where) visiting = "";
+    const where = visiting || model.where, isNew = where !== (history.state?.where ?? where);
+    history[isNew ? "pushState" : "replaceState"]({ ...history.state, where }, "", location.pathname + model.search + location.hash);
+  };
+  model.on("where", write);
   model.on("search", write);
   if (model.search) write(); // something was set before this component existed
+  else history.replaceState({ ...history.state, where: model.where }, "");
+  window.addEventListener("popstate", ({ state }) => {
+    if (!state?.where) return;
+    visiting = state.where;
+    model.visited = [(model.visited[0] ?? 0) + 1, visiting];
+  }, options);
   model.on("reloads", () => location.reload());
   model.page = location.origin + location.pathname;
   model.on("remove", () => listening.abort());
