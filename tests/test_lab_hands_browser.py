@@ -89,10 +89,19 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(lab):
     found.until(lambda: start.tilt > 10)
     pulled = start.tilt
     expect(field).to_have_value(f"{pulled:.1f}")
-    page.mouse.move(x + 90, y + 60)  # beyond the vertical
-    found.until(lambda: start.tilt == 0)
+    for across, down in ((90, 60), (-60, 30)):  # beyond the vertical, in every direction, the axis stays at the hand
+        page.mouse.move(x + across, y + down)
+        page.wait_for_function(
+            """([handle, x, y]) => {
+            const { left, top, width, height } = handle.getBoundingClientRect()
+            return Math.hypot(left + width / 2 - x, top + height / 2 - y) < 2 && handle.dataset.said.endsWith("°")
+        }""",
+            arg=[handle.element_handle(), x + across, y + down],
+        )
+        assert start.tilt > 10
     page.mouse.move(x - 60, y + 40)
-    found.until(lambda: start.tilt == pulled)
+    found.until(lambda: abs(start.tilt - pulled) < 0.5)
+    pulled = start.tilt
     page.mouse.up()
     page.get_by_role("button", name="Pause").wait_for()
     pause(page)

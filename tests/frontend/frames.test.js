@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Vector3 } from "three";
+import { Quaternion, Vector3 } from "three";
 import { centreOf, Frames, emptyPose } from "../../app/frontend/src/motion/frames.js";
+import { nearest } from "../../app/frontend/src/three/handle.js";
 import { motion, near } from "./helping.js";
 
 const times = [1, 2, 4, 4.5, 8];
@@ -58,4 +59,26 @@ test("the centre of the sphere is above the contact, or follows from G and the a
   pose.quaternion.set(Math.SQRT1_2, 0, 0, Math.SQRT1_2); // axis 3 along -y
   near(centreOf(pose, null, new Vector3()).toArray(), [0.5, -0.25, 1]);
   near(centreOf(pose, 0.25, new Vector3()).toArray(), [1, 1.75, 3]);
+});
+
+test("a motion can begin with its axis leaning any way: it is turned as a whole about its first contact", () => {
+  const { x, y, z, w } = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), 0.5); // towards x
+  const at = (t, contact) => ({ t, quaternion: [x, y, z, w], contact, com: [...contact, 1], theta: 0.5, force: [3, 0, 1], omega: [1, 0, 0], momentum: [0, 2, 0] });
+  const bytes = motion([at(0, [1, 2]), at(1, [2, 2])]), turned = new Frames(bytes, Math.PI / 2), pose = emptyPose();
+  turned.read(1, pose);
+  const is = (vector, expected) => vector.toArray().forEach((each, i) => near(each, expected[i], 1e-6));
+  is(new Vector3(0, 0, 1).applyQuaternion(pose.quaternion), [0, Math.sin(0.5), Math.cos(0.5)]);
+  is(pose.contact, [1, 3, 0]);
+  is(pose.com, [1, 3, 1]);
+  is(pose.force, [0, 3, 1]);
+  is(pose.omega, [0, 1, 0]);
+  is(pose.momentum, [-2, 0, 0]);
+  new Frames(bytes).read(1, pose); // what was sent is as it was
+  is(pose.contact, [2, 2, 0]);
+});
+
+test("the handle is searched downhill on the sphere", () => {
+  const aim = new Vector3(0.6, -0.64, 0.48), away = (n) => n.distanceTo(aim);
+  const around = (n) => [new Vector3(0, 0, 1).cross(n).normalize(), new Vector3(0, 0, 1).cross(n).normalize().cross(n)];
+  assert.ok(away(nearest(away, new Vector3(-0.1, 0.2, 0.97).normalize(), around)) < 1e-3);
 });

@@ -17,6 +17,6 @@ export function motion(rows) {
 const pen = new Proxy({}, { get: () => () => {} });
 const nothing = () => {};
 export const element = () => ({
-  style: {}, append: nothing, setAttribute: nothing, removeAttribute: nothing, addEventListener: nothing, getContext: () => pen,
+  style: {}, dataset: {}, classList: { toggle: nothing }, append: nothing, setAttribute: nothing, removeAttribute: nothing, addEventListener: nothing, getContext: () => pen,
 });
 globalThis.document = { createElement: element };

@@ -18,9 +18,13 @@ export const style = `
 .labels .axis { font: calc(15px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
 .labels .axis sub, .labels .axis sup, .readout sub, .readout sup { font-size: 70%; line-height: 0; }
 .labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
-.labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid ${colours.chosen};
+.labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent, ${colours.chosen});
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
+.labels .handle::before { content: ""; position: absolute; inset: -24px; border-radius: 50%; } /* reached without aiming */
+.labels .handle.moves:not(:hover, :focus-visible, :active) { opacity: 0; }
 .labels .handle:active { cursor: grabbing; }
+.labels .handle:active::after { content: attr(data-said); position: absolute; left: 28px; top: -16px; padding: 2px 8px; border-radius: 999px;
+  font-weight: 600; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733); }
 .labels .handle:focus-visible { outline: 3px solid var(--scene-ink, #1d2733); outline-offset: 2px; }
 .note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: #fff4e5;
   color: #5c3b00; box-shadow: 0 1px 4px #0003; }

@@ -50,7 +50,8 @@ interface TopModel extends Model, Record<Shown, boolean> {
   clock: string;
   a: number | null;
   tiltable: boolean;
-  tilted: [theta: number, t: number, grasp: number] | [];
+  tilted: [theta: number, t: number, grasp: number, azimuth?: number] | [];
+  azimuth?: number; // rad: as of Frames
   playing: boolean;
   speed: number;
   until?: number; // the motion is played once, to this time; else it repeats

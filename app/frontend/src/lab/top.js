@@ -3,7 +3,7 @@ import { renderTop3D } from "../three/top3d.js";
 import { part } from "./parts.js";
 
 // The Lab has its own words for these.
-const OURS = ".tippe :is(.bar, .verdict, .scales, .time) { display: none } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 } .labels .handle { border-color: var(--accent) }";
+const OURS = ".tippe :is(.bar, .verdict, .scales, .time) { display: none } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 }";
 
 const SHOWS = {
   show_track: false, show_com_path: false, show_force: false, show_cone: false, show_omega: false, show_momentum: false, follow: true,
@@ -16,16 +16,19 @@ export class Top {
    * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what dragging the axis does
    */
   constructor({ texts, label, time, away, hand }) {
-    const listeners = new Map();
+    const listeners = new Map(), put = (changes) => this.put(changes);
     this.listeners = listeners;
     this.element = part("div", { class: "top" });
     const values = {
-      texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null,
+      texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
       tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, camera: [-1.12, 0.26, away], ...SHOWS,
       get speed() { return time.speed; },
       set speed(_) {},
       get until() { return time.end / time.unit; },
-      set tilted([theta]) { hand?.pull((180 / Math.PI) * theta); },
+      set tilted([theta, , , azimuth]) {
+        put({ azimuth });
+        hand?.pull((180 / Math.PI) * theta);
+      },
       on: (name, run) => listeners.set(name, [...(listeners.get(name) ?? []), run]),
     };
     this.model = /** @type {any} */ (values);

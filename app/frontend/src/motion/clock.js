@@ -106,7 +106,7 @@ export class Place {
   take(start = false) {
     const { model, player } = this, first = !player.frames.count;
     this.echo = true; // a new motion does not change the other tops' clocks
-    player.setFrames(model.frames);
+    player.setFrames(model.frames, model.azimuth);
     this.said = undefined; // the same moment of another motion is news
     if (start) player.land(0);
     this.echo = false;

@@ -7,10 +7,28 @@ const WIDTH = 21;
 const T = 0, QUATERNION = 1, CONTACT = 5, COM = 7, THETA = 10, FORCE = 11, OMEGA = 14, MOMENTUM = 17, REGIME = 20;
 
 export class Frames {
-  /** @param {Bytes} [bytes] */
-  constructor(bytes) {
+  /** @param {Bytes} [bytes] @param {number} [azimuth] rad: if given, the motion is turned on the table so that it begins with the axis leaning that way */
+  constructor(bytes, azimuth) {
     this.rows = float32(bytes);
     this.count = Math.floor(this.rows.length / WIDTH);
+    if (this.count && azimuth !== undefined) this.turn(azimuth);
+  }
+
+  turn(azimuth) {
+    const rows = (this.rows = this.rows.slice()), [x, y] = this.contact(0);
+    other.fromArray(rows, QUATERNION);
+    const { x: east, y: north } = axis.set(0, 0, 1).applyQuaternion(other), angle = azimuth - Math.atan2(north, east);
+    const turned = new Quaternion().setFromAxisAngle(axis.set(0, 0, 1), angle), c = Math.cos(angle), s = Math.sin(angle);
+    const about = (at, x0, y0) => {
+      const [u, v] = [rows[at] - x0, rows[at + 1] - y0];
+      rows[at] = x0 + c * u - s * v;
+      rows[at + 1] = y0 + s * u + c * v;
+    };
+    for (let row = 0; row < this.count * WIDTH; row += WIDTH) {
+      other.fromArray(rows, row + QUATERNION).premultiply(turned).toArray(rows, row + QUATERNION);
+      for (const place of [CONTACT, COM]) about(row + place, x, y);
+      for (const vector of [FORCE, OMEGA, MOMENTUM]) about(row + vector, 0, 0);
+    }
   }
 
   get start() {
@@ -91,7 +109,7 @@ export class Frames {
   }
 }
 
-const other = new Quaternion();
+const other = new Quaternion(), axis = new Vector3();
 
 // The centre O of the sphere. Usually it is above the contact; in the air or on the stem, G and the axis determine it.
 /** @param {Pose} pose @param {number | null} a distance between O and G, if O may not be above the contact @param {Vector3} out */

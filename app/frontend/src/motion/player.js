@@ -46,9 +46,9 @@ export class Player {
 
   // A new motion at the same moment: a playing top continues without jumping back to the start, unless it is over by
   // then.
-  /** @param {Bytes} bytes */
-  setFrames(bytes) {
-    this.frames = new Frames(bytes);
+  /** @param {Bytes} bytes @param {number} [azimuth] as of Frames */
+  setFrames(bytes, azimuth) {
+    this.frames = new Frames(bytes, azimuth);
     if (this.playing) this.t = this.isEnd(this.t) ? this.frames.start : this.within(this.t);
     else this.t = this.frames.count ? this.frames.time(this.frames.nearest(this.t)) : 0;
     this.changed();

@@ -21,9 +21,9 @@ export class Ghost {
     stage.scene.add(this.body);
   }
 
-  /** @param {Before | null} before */
-  show(before) {
-    this.frames = new Frames(before?.frames);
+  /** @param {Before | null} before @param {number} [azimuth] as of Frames */
+  show(before, azimuth) {
+    this.frames = new Frames(before?.frames, azimuth);
     this.body.visible = this.frames.count > 0;
     if (before) {
       this.seconds = before.seconds;

@@ -60,7 +60,8 @@ class Top {
     model.on("profile", () => this.newProfile());
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
     if (this.measured) model.on("measured", () => this.newMeasured());
-    model.on("before", () => this.ghost?.show(model.before ?? null));
+    for (const name of ["before", "azimuth"]) model.on(name, () => this.ghost?.show(model.before ?? null, model.azimuth));
+    model.on("azimuth", onFrames);
     const onHighlight = ({ detail }) => {
       this.highlight = detail;
       this.scene.pointedTip.element.textContent = detail?.label ?? "";
@@ -103,7 +104,7 @@ class Top {
     const { model, scene, player: { frames, place, playing } } = this, some = frames.count > 0;
     scene.pose(frames, place, model, this.highlight);
     const { regime, theta } = scene.moment;
-    this.handle?.follow(scene.body, theta, some && !playing);
+    this.handle?.follow(scene.body, theta, some, playing);
     this.ghost?.follow(this.player.t, model.seconds);
     this.measured?.follow(scene.body, this.player.t);
     this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
