@@ -68,6 +68,8 @@ const places = `
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
     --stage: clamp(390px, 100vh - 400px, 62cqw); }
+  .frame[data-large] .lab { --t-s: 20px; --t-m: 23px; --t-l: 32px; --touch: 48px; --side: 640px; --bar: 196px;
+    --stage: clamp(390px, 100vh - 470px, 62cqw); }
 }
 @container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; --stage: clamp(390px, 100vh - 346px, 62cqw); } }
 @container (max-width: 900px) { .lab { --side: 300px; } }
