@@ -24,7 +24,7 @@ from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping
 # friction. CLOSED (R): a contact closer to the table is closed.
 STILL, SLACK, TOUCH, LEAST, CLOSED = 1e-13, 1e-10, 1e-11, 1e-6, 1e-9
 FALLS = 1e-12  # ((gR)^1/2): a closed contact that moves down more slowly is at rest
-NUDGE = 1e-9  # ((gR)^1/2): the slip with which a patch starts to slide
+NUDGE = 1e-8  # ((gR)^1/2): the slip with which a patch starts to slide; far above the errors of steps
 SINKS = 1e-6  # (g): an open contact that accelerates downwards faster than this would have to carry
 LOG_STILL = float(np.log(STILL))
 DIRECTIONS = 64

@@ -79,10 +79,12 @@ def slowness(w_z: float, ball: int, stem: int, P: Record, C: Record) -> tuple[fl
 
 @compiled
 def is_stiff(W: Record, P: Record, h: float) -> bool:
-    """Whether stability would limit the steps of stepper.py, after a step of length h to step.new."""
+    """Whether stability would limit the steps of stepper.py, after a step of length h to step.new, whose slip it keeps
+    in W.slip."""
     C, ball, stem = W.contacts, W.modes[BALL], W.modes[STEM]
     w_z = turning(W.step.new, P)[1][2]
     least, k_N = slowness(w_z, ball, stem, P, C)
+    W.slip = least
     return least < CREEPS and h * (1.0 if W.implicit else clock(ball, stem, w_z, P, C)) * k_N * (1 + 1 / P.I1) > STIFF
 
 

@@ -25,6 +25,7 @@ FIRST = 1e-3  # (R/g)^1/2: the first step; the following ones grow fast
 SMALLEST = 1e-13  # (R/g)^1/2: the smallest step
 NEAR = 0.1  # a guard this close to 0 is examined along the step
 SLIPS_LITTLE = 1e-3  # the least relative accuracy of a slip
+OF_SLIP, SLIP_DIGITS = 0.01, 1e-10  # the tolerance of an implicit step: at most so much of the slip, but not less
 LEAP = 2.0  # a slip grows by exp(LEAP) in one step at most: the error of the polynomial through the step is not
 # controlled, and the exponential would magnify it
 STIFF = 10.0  # if beta relaxes so many times faster than log|u| changes, it is kept at its steady value
@@ -148,8 +149,11 @@ def change_variables(W: Record, P: Record) -> int:
 
 @compiled
 def scales(W: Record, P: Record, slowest: int) -> None:
-    """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy."""
-    y, S, tolerance = W.y, W.step, max(P.tolerance, TOLERANCE if W.stiff else 0.0)
+    """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy. An implicit
+    step must not change the direction of a slip that is smaller than its tolerance."""
+    y, S, tolerance = W.y, W.step, P.tolerance
+    if W.stiff:
+        tolerance = min(max(tolerance, TOLERANCE), max(OF_SLIP * W.slip, SLIP_DIGITS))
     L = max(P.I1, np.sqrt(y[at.LX] * y[at.LX] + y[at.LY] * y[at.LY] + y[at.LZ] * y[at.LZ]))
     v = max(1.0, np.sqrt(y[at.VX] * y[at.VX] + y[at.VY] * y[at.VY] + y[at.VZ] * y[at.VZ]))
     S.scale[:] = tolerance
@@ -248,10 +252,12 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
         for i in range(1 + P.stem):
             speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2])
             if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
+                left = speed * (y[at.TIME] - W.step.z[at.TIME]) / (before - speed)  # time until it vanishes
+                if left * left > max(P.tolerance, NEARLY_STILL):  # it may as well grow again
+                    continue
                 holds = contacts.may_stick(y, ball, stem, i, P, C)
                 if holds or speed < contacts.NUDGE / 4:
                     rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
-                    left = speed * (y[at.TIME] - W.step.z[at.TIME]) / (before - speed)  # time until it vanishes
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
                     halted(y, i, P, C)
