@@ -66,6 +66,6 @@ def test_a_patch_that_hardly_slips_does_not_halt_long_after_the_end():
     for moved in runs:
         assert len(moved) == 2001 and {name for _, name in moved.events} == {"sticks", "slips"}
         assert len(moved.events) < 1500 and all(0 < t <= moved.t[-1] for t, _ in moved.events)
-        assert np.abs(moved.energy - moved.energy[0]).max() < 1e-4
-        assert 2.5 < np.abs(moved.omega[-200:, 0]).max() < 3.5 and np.abs(moved.omega[-200:, 1:]).max() < 1e-5
+        assert np.abs(moved.energy + moved.heat - moved.energy[0]).max() < 1e-4
+        assert 2.5 < np.abs(moved.omega[-200:, 0]).max() < 3.5 and np.abs(moved.omega[-200:, 1:]).max() < 1e-2
     assert np.abs(runs[0].heat - runs[1].heat).max() < 1e-4
