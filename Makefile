@@ -72,7 +72,7 @@ lock:
 	$(BIN)/uv lock --quiet --upgrade
 	$(EXPORT) --output-file locks/run.txt
 	$(EXPORT) --output-file locks/build.txt --only-group build
-	for extra in test docs bench redis metrics; do $(EXPORT) --output-file locks/$$extra.txt --extra $$extra; done
+	for extra in test docs bench redis metrics distributed; do $(EXPORT) --output-file locks/$$extra.txt --extra $$extra; done
 	rm uv.lock
 	$(BIN)/uv pip compile --quiet --no-annotate --no-header --python-version 3.11 --resolution lowest-direct \
 		--output-file locks/lowest.txt pyproject.toml

@@ -47,12 +47,14 @@ from tippe_core import (
     Top,
     allowed_shares,
     f,
-    figures,
     omega2,
     omega3,
     pole_constants,
     roll,
     turning_points,
+)
+from tippe_core import (
+    lift_off_and_slip_tielines as both,
 )
 
 HERE = Path(__file__).parent
@@ -253,14 +255,14 @@ def compared(what, ours, peer, name, aim=None):
 def run(repetitions, port):
     theta, E = np.linspace(0.005, np.pi - 0.005, 512), np.full((64, 1), 30.0)
     one = medians(repetitions * 20, plain=lambda: plain_f(theta[None, :], K_J[:, None], K_R, E),
-                  figures=lambda: figures(TOP, K_J, K_R, MU_S))  # fmt: skip
+                  figures=lambda: both(TOP, K_J, K_R, MU_S))  # fmt: skip
     ratio = one["figures"] / one["plain"]
     yield ("Figs. 5 + 6, 64 K_J", f"{1e3 * one['figures']:.3g} ms",
            f"one plain f, 64 x 512: {1e3 * one['plain']:.3g} ms", f"costs {ratio:.1f} of them",
            "aim 8 at most" + ("" if ratio <= 8 else " **missed**"))  # fmt: skip
-    slow = medians(max(1, repetitions // 20), figures=lambda: figures(TOP, K_J, K_R, MU_S), scipy=all_straightforward)
+    slow = medians(max(1, repetitions // 20), figures=lambda: both(TOP, K_J, K_R, MU_S), scipy=all_straightforward)
     yield compared("Figs. 5 + 6, 64 K_J", slow["figures"], slow["scipy"], "grid + brentq + bisection")
-    found = figures(TOP, K_J, K_R, MU_S)
+    found = both(TOP, K_J, K_R, MU_S)
     off = [np.abs(lines.E - rows[:, 0]).max() for lines, rows in zip(found, all_straightforward(), strict=True)]
     yield "", "", f"its E differs by {off[0]:.0e} (lift-off), {off[1]:.0e} (slip)", "", ""
 
@@ -293,7 +295,7 @@ def run(repetitions, port):
 
     for n in (16, 64, 256, 1024, 4096):
         K = np.linspace(0, K_J[-1], n)
-        spent = medians(max(3, repetitions // 5), figures=lambda K=K: figures(TOP, K, K_R, MU_S))["figures"]
+        spent = medians(max(3, repetitions // 5), figures=lambda K=K: both(TOP, K, K_R, MU_S))["figures"]
         yield f"Figs. 5 + 6, {n} K_J", f"{1e3 * spent:.3g} ms", "", f"{1e6 * spent / n:.3g} µs a K_J", ""
     for n, m in ((64, 64), (64, 512), (512, 64), (512, 512), (2048, 512)):
         constants, grid = Constants(np.linspace(0, 8, n)[:, None], K_R, 30.0), np.linspace(0.01, 3.13, m)
@@ -318,8 +320,8 @@ def run(repetitions, port):
            "aim 3000" + ("" if len(a) / spent >= 3000 else " **missed**"))  # fmt: skip
 
     times = np.linspace(0, 400 * period, 10**6)
-    for what, job in (("figures, 64 K_J", lambda: figures(TOP, K_J, K_R, MU_S)),
-                      ("figures, 4096 K_J", lambda: figures(TOP, np.linspace(0, 8, 4096), K_R, MU_S)),
+    for what, job in (("figures, 64 K_J", lambda: both(TOP, K_J, K_R, MU_S)),
+                      ("figures, 4096 K_J", lambda: both(TOP, np.linspace(0, 8, 4096), K_R, MU_S)),
                       ("surface f, 512 x 512", lambda: f(np.linspace(0.01, 3.1, 512), TOP,
                                                          Constants(np.linspace(0, 8, 512)[:, None], K_R, 30.0))),
                       ("roll(), 10,000 samples", lambda: roll(TOP, MOTION, times[::100])),

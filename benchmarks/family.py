@@ -23,7 +23,7 @@ import time
 import numpy as np
 
 from app.model.families.family import ordinary
-from tippe_core import Constants, Top, allowed_shares, f, figures, pole_constants
+from tippe_core import Constants, Top, allowed_shares, f, lift_off_and_slip_tielines, pole_constants
 from tippe_core.paper.share import PART, ROWS
 
 RATIOS = np.linspace(0.6, 1.9, 30)
@@ -39,7 +39,7 @@ EVERY, REPEAT, MU_S, COLUMNS = 11, 200, 0.5, 256
 
 
 def exact(top, K_R):
-    lift, slip = figures(top, PART * pole_constants(top, K_R)[0], K_R, MU_S)
+    lift, slip = lift_off_and_slip_tielines(top, PART * pole_constants(top, K_R)[0], K_R, MU_S)
     return np.nansum(slip.theta_outer - slip.theta_inner) / np.nansum(lift.theta_outer - lift.theta_inner)
 
 

@@ -9,7 +9,8 @@ that keeps 1e-6. implicitfast, of first order, as MuJoCo advises for contacts: i
 the step for 1e-6 is found by proportion.
 
 slide_many(): 50 x 50 starts, theta by spin, of 10 s of appendix A's top with its stem, by the clock. Aim:
-10 s on two cores, with Coulomb's law and with the smoothed one.
+10 s on two cores, with Coulomb's law and with the smoothed one. And runs a second of Contensou's law on one thread,
+on two, and in two processes.
 """
 
 import math
@@ -17,13 +18,14 @@ import os
 import statistics
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from types import SimpleNamespace
 
 import mujoco
 import numpy as np
 
-from tippe_core import Coulomb, SmoothedCoulomb, State, Top, TruncatedSphere, slide, slide_many
+from tippe_core import Contensou, Coulomb, SmoothedCoulomb, State, Top, TruncatedSphere, slide, slide_many
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from mujoco_sphere import placed
@@ -116,3 +118,12 @@ def many():
         verdict = "aim 10 s on two cores" + ("" if spent <= 10 else " **missed**")
         kinds = ", ".join(f"{int((found.end == kind).sum())} {kind}" for kind in np.unique(found.end))
         yield f"slide_many(), 2,500 runs of 10 s, {law}", f"{spent:.3g} s", f"{os.cpu_count()} cores", kinds, verdict
+    law = Contensou(0.3, 0.02)
+    for what, pool, count in (("1 thread", ThreadPoolExecutor, 1), ("2 threads", ThreadPoolExecutor, 2),
+                              ("2 processes", ProcessPoolExecutor, 2)):  # fmt: skip
+        with pool(count) as executor:
+            slide_many(body.top, starts, law, 0.1, body.edge, executor=executor)  # started, and compiled
+            begin = time.perf_counter()
+            slide_many(body.top, starts, law, end, body.edge, executor=executor)
+            spent = time.perf_counter() - begin
+        yield f"slide_many(), 2,500 runs of 10 s, {law}, {what}", f"{theta.size / spent:.4g} runs a second", "", "", ""

@@ -10,7 +10,7 @@ from docutils import nodes
 project = "Tippe top explorer"
 author = copyright = "The tippe top explorer authors"
 release = metadata.version("tippe-top-explorer")
-extensions = ["myst_parser", "sphinx.ext.autodoc", "matplotlib.sphinxext.plot_directive"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "matplotlib.sphinxext.plot_directive"]
 exclude_patterns = ["_build"]
 html_theme = "furo"
 html_title = project

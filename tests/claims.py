@@ -89,7 +89,10 @@ ROWS = {
         "barrier at P": ("[...]^2 of (36) falls as theta^4 at P, so f stays finite", "f"),
         "peaks are stable": ("f = f' = 0 and f'' < 0 at the peaks of Fig. 5", "steady_precessions"),
         "small motion": ("theta'' = f''(theta_p)/2 (theta - theta_p) near a steady precession", "Rolling.period"),
-        "a considerable fraction": ("friction 0.5 leaves less of the (K_J, theta) plane than lift-off", "figures"),
+        "a considerable fraction": (
+            "friction 0.5 leaves less of the (K_J, theta) plane than lift-off",
+            "lift_off_and_slip_tielines",
+        ),
         "no transition": ("without slipping no motion goes from theta near 0 to near pi", "turning_points"),
         "five constants": ("v_x, v_y, L_3, L_z, E on the smooth plane", "glide"),
         "t by quadrature": ("t(theta) is the integral of dtheta/f^(1/2)", "Rolling"),

@@ -4,6 +4,7 @@ import re
 from concurrent.futures import ProcessPoolExecutor
 from importlib.metadata import version
 from types import SimpleNamespace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -13,13 +14,17 @@ import tippe_core
 from tippe_core import (
     PRESETS,
     Constants,
+    Contensou,
     Coulomb,
+    Gliding,
     Rolling,
+    SmoothedCoulomb,
     State,
     Top,
     TopError,
     TruncatedSphere,
     Viscous,
+    allowed_shares,
     f,
     glide,
     outcome,
@@ -27,8 +32,10 @@ from tippe_core import (
     slide,
     slide_many,
     spinning_modes,
+    steady_states,
     strongest_friction,
     thresholds,
+    tielines,
 )
 from tippe_core.motion.crowding import midpoints
 
@@ -243,3 +250,77 @@ def test_of_modes_that_grow_alike_the_precession_comes_first():
     assert np.abs(modes.real).max() < 1e-9 and np.all(np.abs(np.diff(rates)) < 0.1 * rates[:-1])
     moved = roll(top, None, np.linspace(0, 400, 4001), State(1e-3, 0, 0, 40.0))
     assert np.polyfit(moved.t, moved.phi, 1)[0] == pytest.approx(rates[-1], rel=1e-5)
+
+
+# ---- the traps that there were ----
+
+
+def test_any_law_is_a_friction():
+    assert {*get_args(tippe_core.Friction)} == {Coulomb, Viscous, SmoothedCoulomb, Contensou}
+
+
+@pytest.mark.parametrize(
+    "start", [State(1.0, 1.5, 0.4, 3.0), State(2.0, -1.0, 0.3, 2.0, phi=0.7), State(1.5, 0.0, 1.0, 0.5)]
+)
+def test_rolling_and_gliding_note_when_they_pass_90_degrees(start):
+    """Where the samples' theta - 90 degrees changes its sign, and as slide() without friction locates it."""
+    times = np.linspace(2.0, 62.0, 60001)
+    rolling, gliding = roll(PAPER, None, times, start), glide(PAPER, start, times)
+    for moved in (rolling, gliding):
+        after = np.flatnonzero(np.diff(np.sign(moved.theta - np.pi / 2)))
+        passed = np.array([t for t, name in moved.notes if name == "theta passes 90 degrees"])
+        assert len(passed) == len(after) and len(after) != 1
+        assert np.all((moved.t[after] <= passed) & (passed <= moved.t[after + 1]))
+        assert moved.time_90 == passed[0] if len(passed) else np.isnan(moved.time_90)
+    slid = slide(PAPER, start, Viscous(0.0), times, rtol=1e-12)
+    if gliding.events == ():
+        np.testing.assert_allclose([t for t, _ in slid.notes], [t for t, _ in gliding.notes], rtol=0, atol=1e-7)
+
+
+def test_very_many_passages_are_not_listed():
+    start = State(1.4, 1.0, 0.2, 1.0)
+    moved = roll(PAPER, None, [0.0, 1e9], start)
+    assert 1000 < len(moved.notes) <= 10_000 and moved.time_90 == roll(PAPER, None, [0.0, 50.0], start).time_90
+
+
+def test_motions_tell_their_constants():
+    rolling = Rolling(PAPER, MOTION)
+    assert (rolling.K_J, rolling.K_R) == (7.0, 10.0) and rolling.E == pytest.approx(27.0, abs=1e-14)
+    gliding = Gliding(PAPER, START)
+    moved = gliding(np.linspace(0, 9, 10))
+    np.testing.assert_allclose(moved.L_z, gliding.L_z, rtol=1e-13)
+    np.testing.assert_allclose(moved.L_3, gliding.L_3, rtol=1e-13)
+    np.testing.assert_allclose(
+        moved.energy - moved.ledger.translation + moved.velocity[:, 2] ** 2 / 2, gliding.E, rtol=1e-12
+    )
+
+
+def test_what_is_computed_cannot_be_written_and_what_is_given_stays_the_callers():
+    K_J = np.linspace(1.0, 7.0, 4)
+    for part in (*vars(tielines(PAPER, K_J, 10.0, 0.5)).values(), *steady_states(PAPER, 2.0)):
+        with pytest.raises(ValueError, match="read-only"):
+            part[0] = part[1]
+    K_J[0] = 2.0
+
+
+def test_numbers_give_a_number():
+    found = [allowed_shares(a, 0.399, 0.408, 10.0, 0.5) for a in (0.07, np.array([0.07]))]
+    assert isinstance(found[0], float) and found[0] == found[1][0] == pytest.approx(0.789, abs=5e-4)
+
+
+@pytest.mark.slow
+def test_a_cluster_gives_the_same_numbers():
+    """Two processes of dask.distributed: the same to the last bit, with progress, and stopped by it."""
+    distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    starts, seen = State(np.linspace(0.05, 1.5, 80), 0, 0, 9.0), []
+    here = slide_many(PAPER, starts, Contensou(0.3, 0.02), 3.0, EDGE)
+    how = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "host": "127.0.0.1", "dashboard_address": None}
+    with distributed.LocalCluster(**how) as cluster, distributed.Client(cluster) as client:
+        executor = client.get_executor()
+        there = slide_many(PAPER, starts, Contensou(0.3, 0.02), 3.0, EDGE, executor=executor, progress=seen.append)
+        with pytest.raises(ZeroDivisionError):
+            slide_many(PAPER, starts, Contensou(0.3, 0.02), 3.0, EDGE, executor=executor, progress=lambda done: 1 / 0)
+    for name in ("theta_end", "heat", "time_90", "time_stem", "F_z_least", "end", "reason"):
+        np.testing.assert_array_equal(getattr(here, name), getattr(there, name))
+    np.testing.assert_array_equal([*here.state_end], [*there.state_end])
+    assert seen[-1] == 1 and np.all(np.diff(seen) > 0)

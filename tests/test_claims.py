@@ -15,9 +15,9 @@ from tippe_core import (
     State,
     Viscous,
     f,
-    figures,
     friction_force,
     jellett_potential,
+    lift_off_and_slip_tielines,
     normal_force,
     pole_constants,
     roll,
@@ -134,7 +134,7 @@ def test_gallops_minimum(top, compare):
 
 def test_where_the_verge_is(compare):
     """F_z = 0 at the outer turning point, F_h = mu_s F_z for small K_J before it."""
-    lift, slip = figures(PAPER, MANY_K_J, 10.0, 0.5)
+    lift, slip = lift_off_and_slip_tielines(PAPER, MANY_K_J, 10.0, 0.5)
     compare("lift-off at the outer turning point", lift.theta_verge, lift.theta_outer, 1e-10, "the turning point of f")
     apart = slip.theta_outer - slip.theta_verge
     assert apart.max() > 0.01 and apart.min() > -1e-10 and (apart < 1e-10).any()
@@ -163,7 +163,7 @@ def ratio(theta, constants):
 
 def test_friction_leaves_less(compare):
     """A considerable fraction of the trajectories of Fig. 5 slips, and the others have a smaller range."""
-    lift, slip = figures(PAPER, MANY_K_J, 10.0, 0.5)
+    lift, slip = lift_off_and_slip_tielines(PAPER, MANY_K_J, 10.0, 0.5)
     assert (slip.theta_inner >= lift.theta_inner - 1e-12).all() and (slip.theta_outer < lift.theta_outer).all()
     areas = [np.trapezoid(lines.theta_outer - lines.theta_inner, MANY_K_J) for lines in (slip, lift)]
     table = np.array([[0, 1.3085, 1.6943, 1.3383, 1.6637], [1, 1.1960, 1.5787, 1.2210, 1.5519],

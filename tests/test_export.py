@@ -16,7 +16,7 @@ from PIL import Image
 from app.model.explorer import Explorer
 from app.share import export, glb, prints, programs
 from app.share.letter import letter
-from tippe_core import PRESETS, Constants, Top, TruncatedSphere, figures, roll
+from tippe_core import PRESETS, Constants, Top, TruncatedSphere, lift_off_and_slip_tielines, roll
 
 LINK = "http://localhost/app?v=1&KJ=6.5"
 
@@ -54,7 +54,7 @@ def test_csv_is_the_motion_to_the_last_digit(scene, motion):
 
 def test_csv_of_the_tielines_is_fig_6(scene):
     table = pd.read_csv(io.BytesIO(export.tielines_csv(scene)), comment="#")
-    lift, slip = figures(Top.paper(), table["tieline_K_J"].to_numpy(), 10.0, 0.4)
+    lift, slip = lift_off_and_slip_tielines(Top.paper(), table["tieline_K_J"].to_numpy(), 10.0, 0.4)
     assert np.array_equal(table["lift_theta_outer"], lift.theta_outer)
     assert np.array_equal(table["slip_theta_verge"], slip.theta_verge)
     assert np.array_equal(table["slip_E"], slip.E)

@@ -11,7 +11,7 @@ from app.widgets.typeset import typeset
 from tippe_core import (
     Top,
     allowed_shares,
-    figures,
+    lift_off_and_slip_tielines,
     pole_constants,
 )
 from tippe_core.paper.share import GRID_M, GRID_V, PART, widths
@@ -60,7 +60,7 @@ def test_the_allowed_share_is_the_area_of_the_papers_table():
 def exact_share(a, I1, I3, K_R, mu_s):
     """From tielines at the same 64 K_J, each refined to full accuracy."""
     top = Top(a, I1, I3)
-    lift, slip = figures(top, PART * pole_constants(top, K_R)[0], K_R, mu_s)
+    lift, slip = lift_off_and_slip_tielines(top, PART * pole_constants(top, K_R)[0], K_R, mu_s)
     return np.nansum(slip.theta_outer - slip.theta_inner) / np.nansum(lift.theta_outer - lift.theta_inner)
 
 

@@ -10,7 +10,7 @@ from app.model.explorer import Explorer
 from app.model.families.__main__ import least
 from app.model.families.known_tops import PRESET_OF, known_of, known_tops
 from app.tabs.families.tops import Tops, sentence
-from tippe_core import PRESETS, figures
+from tippe_core import PRESETS, lift_off_and_slip_tielines
 
 
 def test_every_preset_has_a_place_and_no_two_share_one():
@@ -92,7 +92,7 @@ def test_fig_6_of_a_top_has_its_steady_precession_where_the_core_has_it(view):
     points = np.array(re.findall(r"(-?[\d.]+) (-?[\d.]+)", steady.get("d")), float)
     texts = {text.text: float(text.get("x")) for text in six.iter("text") if text.text in ("0", "3")}
     found = next(top for top in known_tops() if top.name == "Top S").shown(0.5)
-    lift, _ = figures(found.top, found.part * found.pole, 9.4519, 0.5)
+    lift, _ = lift_off_and_slip_tielines(found.top, found.part * found.pole, 9.4519, 0.5)
     upright, three = 34.0, texts["3"]
     theta = 3 * (points[:, 0] - upright) / (three - upright)
     assert theta == pytest.approx(lift.theta_steady, abs=0.02)

@@ -67,8 +67,6 @@ def test_an_ordinary_top_rises_above_its_own_threshold(explorer, planes):
     # physics.md: upright is stable if omega^2 > Mg|a|(1 - alpha)^2/(I3(1 - alpha) - I1)
     omega = np.sqrt(-top.a * (1 - top.a) ** 2 / (top.I3 * (1 - top.a) - top.I1))
     assert limits.upright.stable == "above" and limits.upright.spin == pytest.approx(omega, rel=1e-12)
-    unit = picture.settings.scales.angular_velocity / (2 * np.pi)
-    assert f"{omega * unit:.3g} rev/s" in picture.outcome.sentence
 
 
 @pytest.mark.slow

@@ -107,14 +107,14 @@ def test_no_more_events_than_can_be_followed(monkeypatch):
     (State(3.0, 0, 0, -9.0), Viscous(0.3), {"edge": TruncatedSphere.paper().edge}),
     (State(1.5, 3.0, 5.0, 3e4), Viscous(0.3), {}),
 ])  # fmt: skip
-def test_more_turns_than_can_be_followed_end_it_and_what_was_computed_stays(monkeypatch, state, friction, more):
+def test_more_steps_than_can_be_followed_end_it_and_what_was_computed_stays(monkeypatch, state, friction, more):
     times = np.linspace(0, 40, 4_000_001) if state.omega3 == 1e6 else np.linspace(0, 40, 40_001)
     most, told = 5 if state.omega3 == 1e6 else 20, []
-    monkeypatch.setattr(sliding, "EACH", 1)
+    monkeypatch.setattr(sliding, "STEPS_BETWEEN_CALLS", 1)
     monkeypatch.setattr(sliding, "MOST_STEPS", most)
     moved = slide(PAPER, state, friction, times, progress=told.append, **more)
     t, what = moved.events[-1]
-    assert what == "too many turns" and 0 < len(moved.t) < len(times)
+    assert what == "too many steps" and 0 < len(moved.t) < len(times)
     assert moved.t[-1] <= t < moved.t[-1] + 2 * times[1]
     assert len(told) == most and told[-1] == pytest.approx(t / 40)
     monkeypatch.setattr(sliding, "MOST_STEPS", 100_000)

@@ -36,7 +36,7 @@ def curve() -> None:
 def lines() -> None:
     core.limit_energy(TOP, 7.0, 10.0, 0.5)
     core.tielines(TOP, K_J, 10.0)
-    core.figures(TOP, K_J, 10.0, 0.5)
+    core.lift_off_and_slip_tielines(TOP, K_J, 10.0, 0.5)
 
 
 def shares() -> None:

@@ -22,7 +22,15 @@ STOPS = (*(name for name, after in EVENTS if after == ENDS), ANOTHER_TOUCHES)
 
 
 class Stretch(NamedTuple):
-    """A time interval, start to end in (R/g)^1/2, on one support: "ball", "stem", "both" or "air"."""
+    """A time interval on one support.
+
+    Attributes
+    ----------
+    start, end : float
+        (R/g)^1/2
+    on : str
+        "ball", "stem", "both" or "air"
+    """
 
     start: float
     end: float
@@ -33,20 +41,32 @@ class Stretch(NamedTuple):
 class Ending:
     """How a motion went, and how it ended.
 
-    stretches  the successive Stretches; neighbours differ
-    end        judged by the last tenth of the time: "refused" (it reached a state beyond which nothing can be
-               computed: ended says which), "stem" (on its stem alone), "upright" (on its ball, theta < 0.2),
-               "inverted" (on its ball, theta > pi - 0.2), "leaning" (theta constant within 0.05 rad, on the support
-               `on`), "rolling" (without slipping, nutating), "moving" (none of these)
-    on         the support throughout that tenth; "" if it changes
-    since      when that tenth begins, (R/g)^1/2
-    least, most   the range of theta in it, rad
-    ended      the event that ended the motion early, "" if none did
-    flat       it stands flat on the end of its stem
-    settled    nothing more will happen: it rolls and has completed a full nutation, or friction no longer dissipates
-               and the tilt is a stable one
-    cut        it was still changing when the time was over
-    creeps     it is settled, but its mean tilt still moves slowly to its final value
+    Attributes
+    ----------
+    stretches : tuple of Stretch
+        one after the other; neighbours differ
+    end : str
+        judged by the last tenth of the time: "refused" (it reached a state beyond which nothing can be computed:
+        ended says which), "stem" (on its stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its
+        ball, theta > pi - 0.2), "leaning" (theta constant within 0.05 rad, on the support `on`), "rolling" (without
+        slipping, nutating), "moving" (none of these)
+    on : str
+        the support throughout that tenth; "" if it changes
+    since : float
+        when that tenth begins, (R/g)^1/2
+    least, most : float
+        the range of theta in it, rad
+    ended : str
+        the event that ended the motion early, "" if none did
+    flat : bool
+        it stands flat on the end of its stem
+    settled : bool
+        nothing more will happen: it rolls and has completed a full nutation, or friction no longer dissipates and
+        the tilt is a stable one
+    cut : bool
+        it was still changing when the time was over
+    creeps : bool
+        it is settled, but its mean tilt still moves slowly to its final value
     """
 
     stretches: tuple[Stretch, ...]
@@ -63,7 +83,23 @@ class Ending:
 
 
 def ending(trajectory: Trajectory) -> Ending:
-    """The Ending of a Trajectory from slide()."""
+    """How a motion went, and how it ended.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+        from slide()
+
+    Returns
+    -------
+    Ending
+        the supports, and the end by the last tenth of the time
+
+    Raises
+    ------
+    TopError
+        for anything but a Trajectory
+    """
     if not isinstance(trajectory, Trajectory):
         raise TopError("trajectory", trajectory, "Trajectory", code="wrong-kind")
     moved, found, ended = trajectory, stretches(trajectory), _ended(trajectory)

@@ -32,11 +32,30 @@ STEP = 1e-30  # of the complex-step derivative, whose truncation error is then b
 
 
 def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = False) -> Modes:
-    """The eigenvalues lambda, in (g/R)^1/2, of a top that spins about its own vertical axis, upright or inverted.
+    """The eigenvalues of small disturbances of a top that spins about its own vertical axis.
 
-    spin: its angular velocity about axis 3, in (g/R)^1/2. Three complex numbers, or two where friction makes the
-    contact stick: Coulomb's always, Contensou's with radius or spin 0, and each whose k exceeds 1e8 there. The one that
-    grows fastest comes first; of those that grow alike, the slowest: the precession before the nutation.
+    Parameters
+    ----------
+    top : Top
+        the top
+    friction : Friction
+        a law of friction
+    spin : float
+        angular velocity about axis 3, in (g/R)^1/2
+    inverted : bool
+        theta = pi in place of 0
+
+    Returns
+    -------
+    complex array
+        lambda in (g/R)^1/2: three, or two where friction makes the contact stick: Coulomb's always, Contensou's
+        with radius or spin 0, and each whose k exceeds 1e8 there. The one that grows fastest comes first; of those
+        that grow alike, the slowest: the precession before the nutation
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     a, I1, I3, c, w = top.a, top.I1, top.I3, -1.0 if inverted else 1.0, finite("spin", spin)
     if sticks(friction.law, c * w):
@@ -50,12 +69,27 @@ def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = F
 
 
 def tumbling_modes(top: Top, friction: Friction, theta: float) -> Modes:
-    """The eigenvalues lambda, in (g/R)^1/2, of tumbling: the steady precession at the tilt theta (rad) that neither
-    slips nor needs friction.
+    """The eigenvalues of small disturbances of tumbling: the steady precession that neither slips nor needs friction.
 
-    The one that grows fastest comes first. One is 0, because neighbouring precessions are steady too. Six numbers, or
-    four where friction makes the contact stick, as in spinning_modes. Raises TopError if there is no such precession at
-    that tilt.
+    Parameters
+    ----------
+    top : Top
+        the top
+    friction : Friction
+        a law of friction
+    theta : float
+        its tilt in rad
+
+    Returns
+    -------
+    complex array
+        lambda in (g/R)^1/2: six, or four where friction makes the contact stick, as in spinning_modes(); the one
+        that grows fastest comes first. One is 0, because neighbouring precessions are steady too
+
+    Raises
+    ------
+    TopError
+        if there is no such precession at that tilt
     """
     y = tumbling(top, theta)
     omega_n = float(y[2] * np.sin(theta) + y[3] * np.cos(theta))

@@ -29,12 +29,20 @@ import numpy as np
 from .errors import TopError, finite, has_arrays, single
 from .paper import equations as eq
 from .paper.constants import State, versines
-from .paper.top import Scales, Top
+from .paper.top import Top
 from .types import Array, Bools, Scalars
 
 
 class SteadyStates(NamedTuple):
-    """The tilts theta (k,) of the steady states, in rad from 0 to pi, and stable (k,): True at minima of V_J."""
+    """The steady states at a given C_J. Read-only arrays.
+
+    Attributes
+    ----------
+    theta : array (k,)
+        tilts in rad, from 0 to pi
+    stable : array of bool (k,)
+        True at minima of V_J
+    """
 
     theta: Array
     stable: Bools
@@ -44,8 +52,12 @@ class SteadyStates(NamedTuple):
 class Change:
     """How the stability of spinning about the vertical axis at a pole depends on the spin.
 
-    stable: "above" or "below" the threshold spin, or "always" or "never"; spin: the threshold in (g/R)^1/2, nan if
-    there is none.
+    Attributes
+    ----------
+    stable : str
+        "above" or "below" the threshold spin, or "always" or "never"
+    spin : float
+        the threshold in (g/R)^1/2, nan if there is none
     """
 
     stable: str
@@ -60,16 +72,21 @@ class Change:
 
 @dataclass(frozen=True)
 class Thresholds:
-    """The spins at which upright (theta = 0) and inverted (theta = pi) spinning become stable or unstable, in
-    (g/R)^1/2.
+    """The spins at which upright (theta = 0) and inverted (theta = pi) spinning become stable or unstable.
 
-    group     for a >= 0, by I1/I3: "never rises" below 1 - a, "can invert" up to 1 + a, "rises part of the way" above;
-              for a < 0: "can stand upright" where I1/I3 < 1 - a, "never stands upright" above; "neutral" for a uniform
-              ball, for which all tilts are equivalent
-    upright, inverted   Change: the threshold of omega_3 at that pole
-    launch    the upright spin with the same C_J as the inverted threshold (nan if there is none)
-    rise      for a top that rises part of the way, the largest tilt it can reach at any spin: cos = -a/(I1/I3 - 1)
-              (nan for the others)
+    Attributes
+    ----------
+    group : str
+        for a >= 0, by I1/I3: "never rises" below 1 - a, "can invert" up to 1 + a, "rises part of the way" above;
+        for a < 0: "can stand upright" where I1/I3 < 1 - a, "never stands upright" above; "neutral" for a uniform
+        ball, for which all tilts are equivalent
+    upright, inverted : Change
+        the threshold of omega_3 at that pole
+    launch : float
+        the upright spin with the same C_J as the inverted threshold, (g/R)^1/2 (nan if there is none)
+    rise : float
+        for a top that rises part of the way, the largest tilt it can reach at any spin, rad: cos = -a/(I1/I3 - 1)
+        (nan for the others)
     """
 
     group: str
@@ -80,8 +97,23 @@ class Thresholds:
 
 
 def thresholds(top: Top) -> Thresholds:
-    """The Thresholds of a top; of many, if its fields are arrays: then arrays of their shape in each field. Raises
-    TopError for the first that is not possible."""
+    """The spins at which the stability of spinning upright and inverted changes.
+
+    Parameters
+    ----------
+    top : Top
+        one, or many: then each field has arrays of their shape
+
+    Returns
+    -------
+    Thresholds
+        in (g/R)^1/2
+
+    Raises
+    ------
+    TopError
+        for the first top that is not possible
+    """
     if has_arrays(top):
         fields = np.broadcast_arrays(top.a, top.I1, top.I3)
         each = [
@@ -124,7 +156,22 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Array) -> Array: ...
 @overload
 def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
 def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
-    """V_J = a(1 - c) + C_J^2/(2 I_eff), in MgR. theta (rad) and C_J broadcast. inf where I_eff = 0 but C_J is not."""
+    """V_J = a(1 - c) + C_J^2/(2 I_eff).
+
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad; broadcasts
+    top : Top
+        the top
+    C_J : float or array
+        Jellett's constant, in M (gR^3)^1/2; broadcasts
+
+    Returns
+    -------
+    float or array
+        in MgR; inf where I_eff = 0 but C_J is not
+    """
     v, m = versines(theta)
     I_eff = eq.I_eff(1 - v, v * m, top)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -132,11 +179,28 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
 
 
 def steady_states(top: Top, C_J: float) -> SteadyStates:
-    """The SteadyStates at C_J (a number): the extrema of V_J from theta = 0 to pi, both poles included.
+    """The steady states at C_J: the extrema of V_J from theta = 0 to pi, both poles included.
 
     In each the top precesses steadily without slipping. For any friction law at a point contact, without other losses,
     the minima of V_J are stable. (For a uniform ball V_J is flat: every tilt is steady and none is stable; only the
     poles are listed.)
+
+    Parameters
+    ----------
+    top : Top
+        the top
+    C_J : float
+        Jellett's constant (14), in M (gR^3)^1/2
+
+    Returns
+    -------
+    SteadyStates
+        theta in rad, and which are stable
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     C_J = finite("C_J", C_J)
     if abs(C_J) > 1e50:
@@ -149,7 +213,10 @@ def steady_states(top: Top, C_J: float) -> SteadyStates:
     between = slope((places[:-1] + places[1:]) / 2)  # > 0 where V_J falls as theta grows
     falls_before = np.array([any(between), *(between > 0)])
     rises_after = np.array([*(between < 0), any(between)])
-    return SteadyStates(np.arccos(places), falls_before & rises_after)
+    found = SteadyStates(np.arccos(places), falls_before & rises_after)
+    for part in found:
+        part.flags.writeable = False
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,15 +227,24 @@ class Outcome:
     C_J changes when a second contact, the stem, touches; a pivoting torque (Contensou's law), rolling resistance and
     air drag change it slowly.
 
-    verdict   "turns over", "stays inverted" or, for a < 0, "falls over" (theta = pi); "goes upright" (0); "hangs" in
-              between; "stays as it is" (a uniform ball, or a start exactly in a steady state, even an unstable one)
-    theta     the final tilt, rad; omega3: the spin about axis 3 there, (g/R)^1/2
-    nudged    if that state is unstable, the verdict after an arbitrarily small disturbance; else ""
-    certain   True if this is the only minimum of V_J that can be reached with this energy and C_J; False if there are
-              others, and this one is downhill from the start
-    C_J, launch   the Jellett constant, and the spin of an upright top with the same C_J, (g/R)^1/2
-    steady    the SteadyStates at C_J; thresholds: the Thresholds of the top
-    sentence  all this in words, with spins in rev/s if scales were given
+    Attributes
+    ----------
+    verdict : str
+        "turns over", "stays inverted" or, for a < 0, "falls over" (theta = pi); "goes upright" (0); "hangs" in between;
+        "stays as it is" (a uniform ball, or a start exactly in a steady state, even an unstable one)
+    nudged : str
+        if that state is unstable, the verdict after an arbitrarily small disturbance; else ""
+    theta, omega3 : float
+        the final tilt, rad, and the spin about axis 3 there, (g/R)^1/2
+    certain : bool
+        True if this is the only minimum of V_J that can be reached with this energy and C_J; False if there are others,
+        and this one is downhill from the start
+    C_J, launch : float
+        the Jellett constant, and the spin of an upright top with the same C_J, (g/R)^1/2
+    steady : SteadyStates
+        those at C_J
+    thresholds : Thresholds
+        those of the top
     """
 
     verdict: str
@@ -180,18 +256,30 @@ class Outcome:
     launch: float
     steady: SteadyStates
     thresholds: Thresholds
-    sentence: str
 
 
-def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
-    """The Outcome of a State for sliding friction at a point, without other losses, while only the sphere touches.
+def outcome(top: Top, state: State) -> Outcome:
+    """Where sliding friction at a point, without other losses, takes a top while only its sphere touches.
 
-    scales: the Scales of the real top, for a sentence in rev/s. vx, vy of the state: None means that G is at rest.
+    Parameters
+    ----------
+    top : Top
+        the top
+    state : State
+        the start; vx, vy None mean that G is at rest
+
+    Returns
+    -------
+    Outcome
+        the verdict with its numbers
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     single("top", top, Top)
     single("state", state, State)
-    if scales is not None and not isinstance(scales, Scales):
-        raise TopError("scales", scales, "Scales | None", code="wrong-kind")
     s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3
     C_J = eq.C_J(c, s, w2, w3, top)
     velocity_2 = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (top.a * s * w1) ** 2
@@ -210,11 +298,10 @@ def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
         if _balances(state.theta, steady, V, E):
             verdict, nudged = "stays as it is", verdict
     launch = C_J / eq.C_J(1.0, 0.0, 0.0, 1.0, top)
-    sentence = _sentence(verdict, nudged, theta, certain, launch, limits, scales)
     theta = state.theta if nudged else theta
     I_eff = eq.I_eff(np.cos(theta), np.sin(theta) ** 2, top)
     omega3 = C_J * (np.cos(theta) - top.a) / I_eff if I_eff else 0.0
-    return Outcome(verdict, nudged, theta, float(omega3), certain, float(C_J), float(launch), steady, limits, sentence)
+    return Outcome(verdict, nudged, theta, float(omega3), certain, float(C_J), float(launch), steady, limits)
 
 
 def _balances(theta: float, steady: SteadyStates, V: Array, E: float) -> bool:
@@ -251,28 +338,3 @@ def _downhill(theta: float, steady: SteadyStates, V: Array, here: float) -> int:
     while not steady.stable[end]:  # a point of inflexion
         end += 1 if end == right else -1
     return end
-
-
-def _sentence(
-    verdict: str, nudged: str, theta: float, certain: bool, launch: float, limits: Thresholds, scales: Scales | None
-) -> str:
-    unit = scales.angular_velocity / (2 * np.pi) if scales else 1.0
-
-    def spin(value: float) -> str:
-        return f"{abs(value) * unit:.3g} {'rev/s' if scales else '(g/R)^1/2'}"
-
-    def stability(pole: str, change: Change, value: float) -> str:
-        if change.stable in ("always", "never"):
-            return f"{pole} is {'stable' if change.stable == 'always' else 'unstable'} at any spin"
-        return f"{pole} is stable only {change.stable} {spin(value)}"
-
-    will = {"turns over": "turn over", "stays inverted": "stay inverted", "falls over": "fall over",
-            "goes upright": "go upright", "hangs": f"hang at {np.degrees(theta):.1f} degrees",
-            "stays as it is": "tilt until it rolls, wherever that is"}[nudged or verdict]  # fmt: skip
-    exactly = " exactly in balance it stays as it is; nudged," if nudged else ""
-    doubt = "" if certain else " (if its energy does not carry it over into the other minimum of V_J)"
-    reasons = [stability("upright", limits.upright, limits.upright.spin)]
-    if limits.group in ("never rises", "can invert", "rises part of the way"):
-        reasons.append(stability("inverted", limits.inverted, limits.launch))
-    reason = "a uniform ball has no preferred one" if limits.group == "neutral" else " and ".join(reasons)
-    return f"As an upright start of {spin(launch)} would,{exactly} it will {will}{doubt}: {reason}."

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tippe_core import Top, figures
+from tippe_core import Top, lift_off_and_slip_tielines
 from tippe_core.types import Array
 
 # Above this, squares of what follows exceed the range of floats.
@@ -47,7 +47,7 @@ class Marks:
 
 
 def energy_marks(top: Top, K_J: float, K_R: float, mu_s: float) -> Marks:
-    lift, slip = figures(top, [K_J], K_R, mu_s)
+    lift, slip = lift_off_and_slip_tielines(top, [K_J], K_R, mu_s)
     steady, E_slip, E_lift = float(lift.E_steady[0]), float(slip.E[0]), float(lift.E[0])
     nodes = [steady]
     for E in (E_slip, E_lift):

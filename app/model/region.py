@@ -10,11 +10,13 @@ from tippe_core import (
     Constants,
     Tielines,
     Top,
-    figures,
+    f1_squared,
+    f2_squared,
+    lift_off_and_slip_tielines,
     omega2,
     pole_constants,
 )
-from tippe_core.paper.curve import f1_squared, f2_squared, rounded_f
+from tippe_core.paper.curve import rounded_f
 from tippe_core.paper.forces import forces_on_curve
 from tippe_core.types import Array, Scalars
 
@@ -92,7 +94,7 @@ def plane(top: Top, K_R: float, mu_s: float, upper: Upper, limit: str, low: floa
     step = 2.0 ** np.floor(np.log2((high - low) / LEAST_TIELINES))
     even = step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
     K_J = np.union1d(even, [pole for pole in poles if low <= pole <= high])
-    lift, slip = figures(top, K_J, K_R, mu_s)
+    lift, slip = lift_off_and_slip_tielines(top, K_J, K_R, mu_s)
     surface = lift if limit == "lift-off" else slip
 
     limited = np.isfinite(surface.E)

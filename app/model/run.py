@@ -20,8 +20,7 @@ from app.model.motion import Motion, Progress, check_room, clear, for_reader, mo
 from app.model.phases import Phase, carried, phases, samples
 from app.model.runs import look
 from app.model.setup import PATCH, TOYS, Setup, Toy, by_hand, shape_of
-from tippe_core import Contensou, State, TopError, Trajectory, glide, grip, roll
-from tippe_core.motion.friction import Friction
+from tippe_core import Contensou, Friction, State, TopError, Trajectory, glide, grip, roll
 from tippe_core.types import Array
 
 MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred

@@ -7,8 +7,7 @@ from typing import ClassVar, TypeAlias
 import numpy as np
 
 from app.model.bodies import outline, second_part
-from tippe_core import PRESETS, Preset, Scales, Shape, State, Top, TopError, Viscous
-from tippe_core.motion.friction import Friction
+from tippe_core import PRESETS, Friction, Preset, Scales, Shape, State, Top, TopError, Viscous
 from tippe_core.types import Array, Rim
 
 TABLES = ("ordinary", "rough", "ice")

@@ -8,11 +8,11 @@ def python_of_plane(scene):
     return f"""\
 import matplotlib.pyplot as plt
 import numpy as np
-from tippe_core import Top, figures
+from tippe_core import Top, lift_off_and_slip_tielines
 
 top = {scene.top!r}
 K_J = {_rows(scene.plane)}
-lift, slip = figures(top, K_J, K_R={scene.constants.K_R!r}, mu_s={float(scene.mu_s)!r})
+lift, slip = lift_off_and_slip_tielines(top, K_J, K_R={scene.constants.K_R!r}, mu_s={float(scene.mu_s)!r})
 plt.hlines(K_J, slip.theta_inner, slip.theta_outer)
 plt.plot(lift.theta_inner, K_J, lift.theta_outer, K_J, slip.theta_verge, K_J, lift.theta_steady, K_J)
 plt.savefig("fig6.png")
@@ -27,10 +27,10 @@ def python_of_surface(scene):
     return f"""\
 import matplotlib.pyplot as plt
 import numpy as np
-from tippe_core import Constants, Top, f1_squared, figures
+from tippe_core import Constants, Top, f1_squared, lift_off_and_slip_tielines
 from tippe_core.paper.curve import rounded_f
 
-tie = figures(top := {scene.top!r}, {_rows(plane)}, K_R={K_R!r}, mu_s={float(scene.mu_s)!r})[{which}]
+tie = lift_off_and_slip_tielines(top := {scene.top!r}, {_rows(plane)}, K_R={K_R!r}, mu_s={float(scene.mu_s)!r})[{which}]
 K_J, inner, outer = tie.K_J[:, None], tie.theta_inner[:, None], tie.theta_outer[:, None]
 E = np.where(np.isfinite(tie.E), tie.E, tie.E_steady)[:, None]
 theta = inner + (outer - inner) * ({share})

@@ -28,7 +28,18 @@ def given(shape: Shape) -> dict[str, Json]:
 
 
 def save_top(shape: Shape) -> str:
-    """The shape as a small JSON document (text): its kind, and its dimensions in SI units."""
+    """The shape as a small JSON document.
+
+    Parameters
+    ----------
+    shape : Shape
+        a body of one of the kinds of tippe_core
+
+    Returns
+    -------
+    str
+        its kind, and its dimensions in SI units
+    """
     dimensions = given(shape)
     if isinstance(shape, Turned):
         dimensions["solid"] = [
@@ -40,7 +51,23 @@ def save_top(shape: Shape) -> str:
 
 
 def load_top(text: str | bytes) -> Shape:
-    """The shape in a document (str or bytes) written by save_top, or one like it. Raises TopError, naming the field."""
+    """The shape in a document.
+
+    Parameters
+    ----------
+    text : str or bytes
+        written by save_top(), or like it
+
+    Returns
+    -------
+    Shape
+        the body
+
+    Raises
+    ------
+    TopError
+        naming the field at fault
+    """
     if not isinstance(text, (str, bytes)):
         raise TopError("file", type(text).__name__, "str | bytes", code="wrong-kind")
     if len(text) > LONGEST:

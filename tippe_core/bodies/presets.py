@@ -3,15 +3,27 @@
 from dataclasses import dataclass
 
 from ..paper.top import Top
+from .bare import BareSphere, StemmedSphere
 from .shape import Shape
-from .shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
+from .shapes import Ball, Lathe, LoadedSphere, OrdinaryTop, TruncatedSphere
 from .solids import ball
 
 
 @dataclass(frozen=True)
 class Preset:
-    """A shape with its name in a menu and its source. stated: its Top, if the source states that besides the
-    lengths."""
+    """A shape with its name in a menu.
+
+    Attributes
+    ----------
+    name : str
+        in the menu
+    shape : Shape
+        the body
+    source : str
+        where its numbers come from
+    stated : Top or None
+        its Top, if the source states that besides the lengths
+    """
 
     name: str
     shape: Shape

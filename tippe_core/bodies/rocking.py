@@ -15,7 +15,17 @@ from .shape import Shape
 
 @dataclass(frozen=True)
 class Measured:
-    """A value with its standard uncertainty, and the contribution of each input to that, all in the same unit."""
+    """A measured value.
+
+    Attributes
+    ----------
+    value : float
+        in the unit of the quantity
+    uncertainty : float
+        its standard uncertainty, in the same unit
+    shares : dict
+        the contribution of each input to that, in the same unit
+    """
 
     value: float
     uncertainty: float
@@ -23,9 +33,24 @@ class Measured:
 
 
 def rocking_period(top: Top) -> float:
-    """Period, in (R/g)^1/2, of small oscillations about theta = 0 without spin and without slipping; needs a > 0.
+    """The period of small oscillations about theta = 0 without spin and without slipping:
 
     T = 2 pi [(I1 + (1 - a)^2)/a]^1/2
+
+    Parameters
+    ----------
+    top : Top
+        with a > 0
+
+    Returns
+    -------
+    float
+        in (R/g)^1/2
+
+    Raises
+    ------
+    TopError
+        for a <= 0
     """
     if top.a <= 0:
         raise TopError("a", top.a, "a > 0", "Only a top whose G lies below O rocks about theta = 0.",
@@ -44,12 +69,34 @@ def a_from_rocking(
     dI1: float = 0.0,
     dg: float = 0.0,
 ) -> Measured:
-    """a (in R) of a top that rocks with the period T (s), as Measured; dT, dR, dI1, dg are standard uncertainties.
+    """a of a top that rocks with a measured period.
 
-    R in m, I1 in MR^2 (from the shape), g in m/s^2. With q = (T/2 pi)^2 g/R the formula for the period becomes
+    With q = (T/2 pi)^2 g/R the formula for the period becomes
         a^2 - (2 + q) a + 1 + I1 = 0,    a = 2 (1 + I1)/(2 + q + [(2 + q)^2 - 4 (1 + I1)]^1/2),
     because the other root is larger than 1; and (2 + q - 2a) da = dI1 - a dq.
-    Raises TopError if no a < 1 gives so short a period.
+
+    Parameters
+    ----------
+    T : float
+        period, s
+    R : float
+        radius of the sphere that rolls, m
+    I1 : float
+        in MR^2, from the shape
+    g : float
+        m/s^2
+    dT, dR, dI1, dg : float
+        standard uncertainties, in the same units
+
+    Returns
+    -------
+    Measured
+        a in R
+
+    Raises
+    ------
+    TopError
+        if no a < 1 gives so short a period
     """
     given = {"T": T, "R": R, "I1": I1, "g": g}
     for name, value in given.items():
@@ -82,12 +129,31 @@ def dimension_from_rocking(
     dT: float = 0.0,
     dg: float = 0.0,
 ) -> Measured:
-    """One unknown dimension of a body that rocks with the period T (s), as Measured, in the unit of that dimension.
+    """One unknown dimension of a body that rocks with a measured period.
 
-    family(x) is the shape with the dimension x, which is varied from low to high; values for which there is no body, or
-    one that does not rock, are skipped. Example: lambda d: LoadedSphere(R=.02, b=.008, d=d, density=700,
-    core_density=7800).
-    Raises TopError if no x in the range, or more than one, gives this period.
+    Parameters
+    ----------
+    family : callable
+        family(x) is the shape with the dimension x, such as lambda d: LoadedSphere(R=.02, b=.008, d=d, density=700,
+        core_density=7800); values for which there is no body, or one that does not rock, are skipped
+    T : float
+        period, s
+    low, high : float
+        range of the dimension, in its unit
+    g : float
+        m/s^2
+    dT, dg : float
+        standard uncertainties
+
+    Returns
+    -------
+    Measured
+        in the unit of the dimension
+
+    Raises
+    ------
+    TopError
+        if no x in the range, or more than one, gives this period
     """
     in_range("T", finite("T", T), 0, inf, "s", above=True)
     in_range("g", finite("g", g), 0, inf, "m/s^2", above=True)

@@ -25,7 +25,18 @@ from .solids import Solid
 
 @dataclass(frozen=True, kw_only=True)
 class Shape:
-    """The properties that all shapes have. R (m) is the radius of the sphere that rolls: of the body, or of its peg."""
+    """The properties that all shapes have.
+
+    Parameters
+    ----------
+    R : float
+        radius of the sphere that rolls, m: of the body, or of its peg
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
 
     R: float
 
@@ -190,7 +201,20 @@ class OneMaterial(Shape):
 
 @dataclass(frozen=True, kw_only=True)
 class Turned(Shape):
-    """Any Solid on a sphere of radius R (m) about O: the result of `shape + solid` and `shape - solid`."""
+    """Any Solid on a sphere about O: the result of `shape + solid` and `shape - solid`.
+
+    Parameters
+    ----------
+    R : float
+        radius of the sphere, m
+    solid : Solid
+        the whole body
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
 
     R: float
     solid: Solid

@@ -2,16 +2,16 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import acos, atan2, hypot, sqrt
+from math import acos, atan2, hypot
 from typing import Self
 
 import numpy as np
 
 from ..errors import TopError, finite
-from ..paper.top import Top
 from ..types import Number, Rim
+from .bare import BareSphere, StemmedSphere
 from .inside import STEEL, across, check_disc, check_hole, volume_of_disc
-from .ranges import LONG, MOST_POINTS, SMALLEST, THINNEST, check_stem, in_range, rows_of, weight
+from .ranges import LONG, MOST_POINTS, SMALLEST, THINNEST, check_stem, in_range, rows_of
 from .shape import OneMaterial, Shape, Turned, check_one_piece
 from .slices import DENSEST, LARGEST
 from .solids import Solid, ball, cylinder, frustum, zone
@@ -21,14 +21,29 @@ FACETS = 16  # frustums that stand for a rounded edge
 
 @dataclass(frozen=True, kw_only=True)
 class TruncatedSphere(OneMaterial):
-    """Fig. 7: a sphere of radius R, cut off by a plane at height c, with a cylinder on the cut, the stem.
+    """Fig. 7: a sphere, cut off by a plane, with a cylinder on the cut, the stem. All lengths in m.
 
-    The stem has the radius r and the length l. All lengths in m, M in kg. r = l = 0: no stem. c = R: the whole sphere.
-    rounding: the radius of the edge of the stem's end, from 0 (sharp) to r (half a ball). For the mass it is replaced
-    by 16 facets, which remove half a percent more material than the rounding; for contact it is exactly round.
-    hole, depth: the radius and the depth below the cut of a hole around the stem, which stands on its floor.
-    disc, thickness, height: of a steel disc (7850 kg/m^3) in the wood, with its lower face at the height above the
-    contact point. 0: no hole, no disc. M is the mass of all of it, density that of the wood.
+    Parameters
+    ----------
+    R, c : float
+        radius of the sphere, and height of the cut; c = R: the whole sphere
+    l, r : float
+        length and radius of the stem; l = r = 0: no stem
+    M : float
+        mass of all of it, kg; density is that of the wood
+    rounding : float
+        radius of the edge of the stem's end, from 0 (sharp) to r (half a ball). For the mass it is replaced by 16
+        facets, which remove half a percent more material than the rounding; for contact it is exactly round
+    hole, depth : float
+        radius and depth below the cut of a hole around the stem, which stands on its floor; 0: none
+    disc, thickness, height : float
+        of a steel disc (7850 kg/m^3) in the wood, with its lower face at the height above the contact point; 0:
+        none
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     R: float
@@ -114,7 +129,20 @@ class TruncatedSphere(OneMaterial):
 
 @dataclass(frozen=True, kw_only=True)
 class Ball(OneMaterial):
-    """A uniform ball of radius R (m) and mass M (kg)."""
+    """A uniform ball.
+
+    Parameters
+    ----------
+    R : float
+        radius, m
+    M : float
+        mass, kg
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
 
     R: float
     M: float
@@ -126,9 +154,21 @@ class Ball(OneMaterial):
 
 @dataclass(frozen=True, kw_only=True)
 class LoadedSphere(Shape):
-    """Fig. 2: a ball of radius R that contains a ball of radius b and another density, at the distance d below O.
+    """Fig. 2: a ball that contains a ball of another density.
 
-    In m and kg/m^3. core_density = 0 is a cavity; d < 0 is above O, where a cavity makes a tippe top.
+    Parameters
+    ----------
+    R, b : float
+        their radii, m
+    d : float
+        distance of the inner ball below O, m; d < 0 is above O, where a cavity makes a tippe top
+    density, core_density : float
+        kg/m^3; core_density = 0 is a cavity
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     R: float
@@ -159,9 +199,21 @@ class LoadedSphere(Shape):
 class OrdinaryTop(OneMaterial):
     """A top with G above O: a peg, a disc or cone on it, and a stem.
 
-    The peg is a rod of radius R with a hemispherical end about O and the length h above O. On it is the body, of
-    thickness t, with the radius r1 at its lower face and r2 at its upper one (r1 = r2 is a disc), and on that a stem of
-    radius r and length l (r = l = 0: none). All lengths in m, M in kg.
+    Parameters
+    ----------
+    R, h : float
+        the peg: a rod of radius R with a hemispherical end about O and the length h above O, m
+    r1, r2, t : float
+        the body on it: radius at its lower and its upper face (r1 = r2 is a disc), and thickness, m
+    r, l : float
+        radius and length of the stem, m; r = l = 0: none
+    M : float
+        mass, kg
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     R: float
@@ -196,11 +248,25 @@ class OrdinaryTop(OneMaterial):
 
 @dataclass(frozen=True, kw_only=True)
 class Lathe(Shape):
-    """An arbitrary outline on a round peg: points (radius, height above O) in m, from the peg upwards.
+    """An arbitrary outline on a round peg.
 
     The sphere of radius R about O ends at the height of the first point. Frustums join the points; a step in the radius
-    is given by two points at the same height. density (kg/m^3) is one number, or one for each point: the first for the
-    peg up to points[0], each of the others for the piece below its point (ignored at a step).
+    is given by two points at the same height.
+
+    Parameters
+    ----------
+    R : float
+        radius of the peg, m
+    points : rows (k, 2)
+        radius and height above O, m, from the peg upwards
+    density : float or sequence
+        kg/m^3: one number, or one for each point: the first for the peg up to points[0], each of the others for the
+        piece below its point (ignored at a step)
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     R: float
@@ -238,88 +304,6 @@ class Lathe(Shape):
             if high > low and (r_low or r_high):
                 solid += density * frustum(r_low, r_high, low, high)
         return solid
-
-
-@dataclass(frozen=True, kw_only=True)
-class BareSphere(Shape):
-    """A ball of radius R (m) and mass M (kg) with an unknown interior, given by a, I1, I3 (in R and MR^2, as in
-    Top)."""
-
-    R: float
-    M: float
-    a: float
-    I1: float
-    I3: float
-
-    _weights = ("M",)
-
-    def _check(self) -> None:
-        weight(self.M)
-        Top(self.a, self.I1, self.I3)
-        # int r^2 dm <= M reach^2 about O, and it is I1 + I3/2 + a^2
-        room = self._reach**2 - self.I3 / 2
-        if self.I1 > room:
-            raise TopError("I1", self.I1, f"I1 <= {self._reach**2:g} - I3/2 = {room:g}",
-                           "More does not fit into the body.", code="does-not-fit")  # fmt: skip
-        most = sqrt(room - self.I1)
-        in_range("a", self.a, -most, most, "R", code="does-not-fit", remedy="More does not fit into the body.")
-
-    @property
-    def _reach(self) -> float:
-        """The largest distance of its surface from O, in R."""
-        return 1.0
-
-    @property
-    def mass(self) -> float:
-        return self.M
-
-    @property
-    def com(self) -> float:
-        return -self.a * self.R
-
-    @property
-    def moments(self) -> tuple[float, float]:
-        unit = self.M * self.R**2
-        return self.I1 * unit, self.I3 * unit
-
-    @property
-    def top(self) -> Top:
-        return Top(self.a, self.I1, self.I3)
-
-    @cached_property
-    def solid(self) -> Solid:
-        """Its outer surface; the distribution of mass inside is unknown."""
-        return ball(self.R)
-
-    def stl(self, sides: int = 128) -> bytes:
-        raise TopError("shape", type(self).__name__, "a shape whose inside is known", "Give it dimensions to print it.",
-                       code="inside-unknown")  # fmt: skip
-
-
-@dataclass(frozen=True, kw_only=True)
-class StemmedSphere(BareSphere):
-    """A BareSphere with a stem with a round end: a ball of radius r, centred at the height h above O, protrudes from it
-    (m).
-
-    The two surfaces meet in a circle, R - r < h < R + r. a, I1, I3 are those of the whole body.
-    """
-
-    r: float
-    h: float
-
-    def _check(self) -> None:
-        in_range("r", self.r, SMALLEST, self.R, "m")
-        in_range("h", self.h, self.R - self.r, self.R + self.r, "m", above=True, below=True)
-        super()._check()
-
-    @property
-    def _reach(self) -> float:
-        return (self.h + self.r) / self.R
-
-    @cached_property
-    def solid(self) -> Solid:
-        meet = (self.h**2 + (self.R - self.r) * (self.R + self.r)) / (2 * self.h)
-        return zone(self.R, -self.R, meet) + zone(self.r, meet, self.h + self.r, self.h)
 
 
 KINDS: dict[str, type[Shape]]

@@ -171,20 +171,94 @@ class Solid:
 
 
 def zone(R: float, low: float, high: float, centre: float = 0.0) -> Solid:
-    """The part of a ball of radius R between the heights low and high (m), with the density 1 kg/m^3."""
+    """The part of a ball between two heights, with the density 1 kg/m^3.
+
+    Parameters
+    ----------
+    R : float
+        radius of the ball, m
+    low, high : float
+        the heights, m
+    centre : float
+        height of the ball's centre, m
+
+    Returns
+    -------
+    Solid
+        of that density
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
     return Solid((Zone(R=R, low=low, high=high, centre=centre),))
 
 
 def ball(R: float, centre: float = 0.0) -> Solid:
-    """A whole ball of radius R with its centre at the height centre (m), with the density 1 kg/m^3."""
+    """A whole ball with the density 1 kg/m^3.
+
+    Parameters
+    ----------
+    R : float
+        radius, m
+    centre : float
+        height of its centre, m
+
+    Returns
+    -------
+    Solid
+        of that density; 700 * solid has 700 kg/m^3
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
     return zone(R, centre - R, centre + R, centre)
 
 
 def frustum(r_low: float, r_high: float, low: float, high: float) -> Solid:
-    """A frustum of a cone, or a whole cone, with the density 1 kg/m^3. Lengths in m."""
+    """A frustum of a cone, or a whole cone, with the density 1 kg/m^3.
+
+    Parameters
+    ----------
+    r_low, r_high : float
+        radius at its lower and its upper face, m
+    low, high : float
+        their heights, m
+
+    Returns
+    -------
+    Solid
+        of that density
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
     return Solid((Frustum(r_low=r_low, r_high=r_high, low=low, high=high),))
 
 
 def cylinder(r: float, low: float, high: float) -> Solid:
-    """A cylinder of radius r between the heights low and high (m), with the density 1 kg/m^3."""
+    """A cylinder with the density 1 kg/m^3.
+
+    Parameters
+    ----------
+    r : float
+        radius, m
+    low, high : float
+        the heights between which it is, m
+
+    Returns
+    -------
+    Solid
+        of that density
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
     return frustum(r, r, low, high)

@@ -20,16 +20,16 @@ from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
 
 # STILL: slip below which the rest of the motion to a halt takes far less time than 1e-9, to which events are located.
-# SLACK (Mg), TOUCH (R): smaller values count as 0. LEAST: the smallest du_z'/dN allowed, relative to that without
-# friction. CLOSED (R): a contact closer to the table is closed.
-STILL, SLACK, TOUCH, LEAST, CLOSED = 1e-13, 1e-10, 1e-11, 1e-6, 1e-9
+# SLACK (Mg), TOUCH (R): smaller values count as 0. LEAST_MINOR: the smallest du_z'/dN allowed, relative to that
+# without friction. CLOSED (R): a contact closer to the table is closed.
+STILL, SLACK, TOUCH, LEAST_MINOR, CLOSED = 1e-13, 1e-10, 1e-11, 1e-6, 1e-9
 FALLS = 1e-12  # ((gR)^1/2): a closed contact that moves down more slowly is at rest
-NUDGE = 1e-9  # ((gR)^1/2): the slip with which a patch starts to slide
+NUDGE = 1e-8  # ((gR)^1/2): the slip with which a patch starts to slide; far above the errors of steps
 SINKS = 1e-6  # (g): an open contact that accelerates downwards faster than this would have to carry
 LOG_STILL = float(np.log(STILL))
 DIRECTIONS = 64
 # modes of (ball, stem), in the order in which they are tried: loaded and sticking ones first
-ORDER = np.array([[2, 2], [2, 1], [1, 2], [1, 1], [0, 2], [2, 0], [0, 1], [1, 0], [0, 0]])
+MODES_IN_ORDER = np.array([[2, 2], [2, 1], [1, 2], [1, 1], [0, 2], [2, 0], [0, 1], [1, 0], [0, 0]])
 
 
 @compiled
@@ -77,7 +77,7 @@ def guards(
     of the ball. floor: heights that count as the table's."""
     e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
     out[:] = 1.0
-    out[BALANCES, BALL] = forces(turn, ball, stem, P, C) - LEAST
+    out[BALANCES, BALL] = forces(turn, ball, stem, P, C) - LEAST_MINOR
     for i in range(1 + P.stem):
         mode = ball if i == BALL else stem
         if mode == OPEN:
@@ -144,10 +144,10 @@ def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: R
     best, found, last, given = -np.inf, 0.0, 0.0, (y, ball, stem, i, P, S, C)
     for n in range(DIRECTIONS + 1):
         beta = 2 * np.pi * n / DIRECTIONS
-        now = across(beta, *given)
+        now = sideways_rate(beta, *given)
         if n > 0 and last * now <= 0.0:
-            steady = zero(across, beta - 2 * np.pi / DIRECTIONS, beta, given)
-            across(steady, *given)
+            steady = zero(sideways_rate, beta - 2 * np.pi / DIRECTIONS, beta, given)
+            sideways_rate(steady, *given)
             if S.K[0, at.LOG_U] > best:
                 best, found = S.K[0, at.LOG_U], steady
         last = now
@@ -155,7 +155,7 @@ def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: R
 
 
 @shared_with_kernels
-def across(beta: float, y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
+def sideways_rate(beta: float, y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
     """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, LOG_U] is the
     parallel one."""
     S.at[:] = y
@@ -225,15 +225,15 @@ def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Re
     """
     best, trial, kept, unbalanced = np.inf, S.z, S.new, False  # of the finished step, reused as working space
     modes[0] = modes[1] = OPEN
-    for n in range(len(ORDER)):
-        ball, stem = ORDER[n, 0], ORDER[n, 1]
+    for n in range(len(MODES_IN_ORDER)):
+        ball, stem = MODES_IN_ORDER[n, 0], MODES_IN_ORDER[n, 1]
         if not (options[BALL, ball] and options[STEM, stem]):
             continue
         trial[:] = y
         let_go(trial, ball, stem, P, S, C)
         _, w, _ = turn = arrange(trial, NO_ONE, ball, stem, P, C)
         minor = forces(turn, ball, stem, P, C)
-        if minor < LEAST:
+        if minor < LEAST_MINOR:
             unbalanced = True
             continue
         worst = lacks(w, ball, stem, options, P, C)

@@ -37,13 +37,13 @@ import numpy as np
 from ..compiled import compiled
 from ..types import Array, Vector
 from . import at
-from .elimination import solve
+from .elimination import solve_linear
 from .friction import bounds, push
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 
 SLOW = 0.01  # ((gR)^1/2)
 STEADY = 10.0  # ((g/R)^1/2): rate at which numerical drift at closed contacts is damped
-ROLLS = 1e-3  # ((g/R)^1/2): w_h below which rolling resistance goes to zero
+SLOW_ROLLING = 1e-3  # ((g/R)^1/2): w_h below which rolling resistance goes to zero
 POLE = 1e-12  # sin(theta) below which the stem's lowest point is anywhere on its rim
 LOG_FAST = 100.0  # a trial step with a larger log|u| is too long anyway, and the exponential may overflow
 
@@ -77,7 +77,7 @@ def turning(y: Array, P: Record) -> Turning:
 
 
 @compiled
-def place(e: Vector, w: Vector, P: Record, C: Record) -> None:
+def locate_contacts(e: Vector, w: Vector, P: Record, C: Record) -> None:
     """rho and rho' of each contact."""
     e_dot = cross(w, e)
     for i in range(1 + P.stem):
@@ -97,7 +97,7 @@ def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) 
     """Writes into C the positions and slip velocities of the contacts, and v and z of G, with closed contacts on the
     table."""
     e, w, L3 = turning(y, P)
-    place(e, w, P, C)
+    locate_contacts(e, w, P, C)
     G = C.G
     G[0], G[1], G[2], G[3] = y[at.VX], y[at.VY], y[at.VZ], y[at.Z]
     ux, uy = 0.0, 0.0
@@ -151,7 +151,7 @@ def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
 @compiled
 def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
     """Sets up the columns of all unknowns and returns their number."""
-    n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + ROLLS * ROLLS)
+    n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING)
     rolls = -P.delta * w[0] / w_h, -P.delta * w[1] / w_h
     for i in range(1 + P.stem):
         mode = ball if i == BALL else stem
@@ -200,9 +200,9 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
     both = ball != OPEN and stem != OPEN
     if both and ball == STICK and stem == STICK:
         least_along_the_line(C)
-        solve(C.matrix, C.right, n)
+        solve_linear(C.matrix, C.right, n)
     else:
-        determinant = solve(C.matrix, C.right, n)
+        determinant = solve_linear(C.matrix, C.right, n)
         minor = min(minor, determinant) if both else minor
     for axis in range(3):
         C.v_dot[axis], C.L_dot[axis] = (-1.0 if axis == 2 else 0.0), drag[axis]
@@ -225,7 +225,7 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
 def alone(turn: Turning, drag: Vector, free: Vector, i: int, P: Record, C: Record) -> float:
     """forces() if only contact i is closed, and slips: its N follows from u_z' = 0, which is linear in N."""
     (e, w, _), rho = turn, row(C.rho, i)
-    ux, uy, w_h = C.u[i, 0], C.u[i, 1], np.sqrt(w[0] * w[0] + w[1] * w[1] + ROLLS * ROLLS)
+    ux, uy, w_h = C.u[i, 0], C.u[i, 1], np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING)
     k, t = push(P.law, ux * ux + uy * uy, w[2])
     F, M = (-k * ux, -k * uy, 1.0), (-P.delta * w[0] / w_h, -P.delta * w[1] / w_h, -t)
     torque = cross(rho, F)
@@ -279,7 +279,7 @@ def slip_rate(w: Vector, i: int, part: int, C: Record) -> float:
 
 
 @compiled
-def clock(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
+def time_scale(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
     """dt/dtau: the product of |u|/(|u| + SLOW) over the contacts that may come to stick. For a patch that also spins,
     |u|^2 is replaced by |u|^2 + (radius w_z)^2."""
     g = 1.0
@@ -308,7 +308,7 @@ def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, ou
     out[at.CHI], out[at.LX], out[at.LY], out[at.LZ] = w3, C.L_dot[0], C.L_dot[1], C.L_dot[2]
     out[at.VX], out[at.VY], out[at.X], out[at.Y] = C.v_dot[0], C.v_dot[1], C.G[0], C.G[1]
     out[at.TIME], out[at.HEAT], out[at.VZ], out[at.Z] = 1.0, heat, C.v_dot[2], C.G[2]
-    g = clock(ball, stem, w[2], P, C)
+    g = time_scale(ball, stem, w[2], P, C)
     if g != 1.0:
         for j in range(16):
             out[j] *= g

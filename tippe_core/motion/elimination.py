@@ -7,7 +7,7 @@ from ..types import Array, Indices
 
 
 @compiled
-def solve(matrix: Array, right: Array, n: int) -> float:
+def solve_linear(matrix: Array, right: Array, n: int) -> float:
     """Solves matrix x = right for the first n rows, x into right; returns the determinant."""
     pivots = np.zeros(n, np.int64)
     determinant = decompose(matrix, pivots, n)

@@ -11,7 +11,7 @@ from ..types import Array, Number
 from . import at, contacts
 from .dynamics import carried, turning
 from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event
-from .poses import turned
+from .poses import continue_angles
 from .records import BALL, OPEN, STEM, Record
 from .standing import leaning, lies
 from .stepper import at_share
@@ -21,11 +21,11 @@ EVENTS = (
     ("sticks", CHANGES), ("slips", CHANGES), ("lifts off", CHANGES), ("lands", CHANGES), ("lands on its stem", CHANGES),
     ("stem touches", CHANGES), ("ball touches", CHANGES), ("stem leaves", CHANGES), ("stands on its stem", CHANGES),
     ("falls back on its ball", CHANGES), ("rocks over", CHANGES), ("rim touches", ENDS), ("stands upright", ENDS),
-    ("Painleve's limit", ENDS), ("too many events", ENDS), ("too many turns", ENDS),
+    ("Painleve's limit", ENDS), ("too many events", ENDS), ("too many steps", ENDS),
     ("theta passes 90 degrees", NOTES), ("the stem touches first", NOTES),
 )  # fmt: skip
 STICKS, SLIPS_OFF, LIFTS_OFF, LANDS, LANDS_ON_STEM, STEM_TOUCHES, BALL_TOUCHES, STEM_LEAVES, STANDS_ON_STEM = range(9)
-FALLS_BACK, ROCKS_OVER, RIM_TOUCHES, STANDS_UPRIGHT, PAINLEVE, TOO_MANY_EVENTS, TOO_MANY_TURNS = range(9, 16)
+FALLS_BACK, ROCKS_OVER, RIM_TOUCHES, STANDS_UPRIGHT, PAINLEVE, TOO_MANY_EVENTS, TOO_MANY_STEPS = range(9, 16)
 PASSES_90, FIRST_TOUCH = 16, 17
 SUPPORTS = ("none", "ball", "stem", "both")  # by carried()
 # the event in the table that follows from a guard alone, by its kind
@@ -104,7 +104,7 @@ def happens(W: Record, P: Record, log: Array, event: Event, flies: bool) -> bool
     if kind == TOUCHES and i == STEM:
         touched(W, log)
     goes_on = contacts.settle(y, event, W.modes, P, W.step, C)
-    turned(y, W.angles)
+    continue_angles(y, W.angles)
     if not goes_on:
         W.modes[BALL], W.modes[STEM] = ball, stem
         left_ball = OPEN if event == (LEAVES, BALL) else ball

@@ -63,7 +63,17 @@ class _Friction:
 class Coulomb(_Friction):
     """F_h = -mu_k F_z u/|u| while the top slips; while it rolls, the force of the constraint, up to mu_s F_z.
 
-    mu_s >= mu_k > 0; mu_s = mu_k if it is not given. Raises TopError for anything else.
+    Parameters
+    ----------
+    mu_k : float
+        coefficient of sliding friction, > 0
+    mu_s : float
+        coefficient of static friction, mu_s >= mu_k; mu_k if it is not given
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     mu_k: float
@@ -85,10 +95,20 @@ class Coulomb(_Friction):
 
 @dataclass(frozen=True)
 class Viscous(_Friction):
-    """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2.
+    """F_h = -gamma F_z u.
 
     In SI units F_h = -gamma_SI F_z u with gamma_SI in s/m, and gamma = gamma_SI (gR)^1/2. gamma = 0 is the smooth
-    plane. Raises TopError for anything else.
+    plane.
+
+    Parameters
+    ----------
+    gamma : float
+        in (gR)^-1/2, 0 or more
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     gamma: float
@@ -103,9 +123,19 @@ class Viscous(_Friction):
 
 @dataclass(frozen=True)
 class SmoothedCoulomb(_Friction):
-    """F_h = -mu F_z u/(u^2 + eps^2)^1/2, mu > 0, eps > 0 in (gR)^1/2: a smoothed Coulomb law, which never sticks.
+    """F_h = -mu F_z u/(u^2 + eps^2)^1/2: a smoothed Coulomb law, which never sticks.
 
-    Raises TopError for anything else.
+    Parameters
+    ----------
+    mu : float
+        coefficient of sliding friction, > 0
+    eps : float
+        the speed below which it is smoothed, in (gR)^1/2, > 0
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     mu: float
@@ -122,7 +152,7 @@ class SmoothedCoulomb(_Friction):
 
 @dataclass(frozen=True)
 class Contensou(_Friction):
-    """Coulomb's law at each point of a round contact patch with Hertzian pressure, mu > 0, radius >= 0 in R.
+    """Coulomb's law at each point of a round contact patch with Hertzian pressure.
 
     The patch slides and spins about its normal at the same time, so the direction of friction varies over it. With the
     slip velocity u + omega_n x r at the point r, the law is the integral over the patch
@@ -130,11 +160,24 @@ class Contensou(_Friction):
         F_h = -mu int p (u + omega_n x r)/|u + omega_n x r| dA ,   p = 3 F_z/(2 pi radius^2) (1 - r^2/radius^2)^1/2 ,
 
     and T is the integral of r x the same; contensou() has the closed forms. The contact cannot stick while it spins. If
-    u and radius omega_n both vanish, it sticks up to bounds(). radius = 0 is Coulomb(mu). pivots =
-    False leaves T out, for experiments. Raises TopError for anything else.
+    u and radius omega_n both vanish, it sticks up to bounds().
 
     P. Contensou, in Kreiselprobleme (IUTAM, Springer 1963); for the tippe top R. I. Leine and Ch. Glocker, Eur. J.
     Mech. A/Solids 22, 193 (2003).
+
+    Parameters
+    ----------
+    mu : float
+        coefficient of friction, > 0
+    radius : float
+        of the patch, in R; 0 is Coulomb(mu)
+    pivots : bool
+        False leaves T out, for experiments
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     mu: float

@@ -25,11 +25,27 @@ from ..paper.top import Top
 
 
 def grip(top: Top, state: State) -> tuple[State, float]:
-    """The rolling State right after a rough table has stopped the slip at the ball, and the energy lost, in MgR (>= 0).
+    """The rolling State right after a rough table has stopped the slip at the ball, and the energy lost.
 
-    state: vx, vy None mean that G is at rest, as for slide(). C_J is conserved, K_R and E are not. A State that rolls
-    already loses nothing. The position of G and the orientation do not change; at a pole phi is chosen so that 1' is
-    along the horizontal part of omega, and psi accordingly. Raises TopError for anything but a Top and a State.
+    C_J is conserved, K_R and E are not. A State that rolls already loses nothing. The position of G and the orientation
+    do not change; at a pole phi is chosen so that 1' is along the horizontal part of omega, and psi accordingly.
+
+    Parameters
+    ----------
+    top : Top
+        the top
+    state : State
+        vx, vy None mean that G is at rest, as for slide()
+
+    Returns
+    -------
+    tuple of State and float
+        the State, and the energy lost in MgR (0 or more)
+
+    Raises
+    ------
+    TopError
+        for anything but a Top and a State
     """
     single("top", top, Top)
     single("state", state, State)

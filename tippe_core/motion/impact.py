@@ -17,14 +17,14 @@ from ..paper.search import zero
 from ..types import Array
 from . import at
 from .dynamics import SLOW, angular, arrange, column, component, cross, kinetic, row, turning
-from .elimination import solve
+from .elimination import solve_linear
 from .friction import bounds, push
 from .records import NO_ONE, OPEN, Record
 from .stepper import ORDER, STAGES, A, B, error, factor, stage
 
 STOPPED = 1e-9  # relative to the speed of the impact: a smaller slip counts as 0
 DIGITS = 1e-12  # the tolerance of a step, relative to the same
-MOST_STEPS = 10_000
+MOST_OF_AN_IMPACT = 10_000
 REST = 1e-11  # ((gR)^1/2): slip below which a contact may stick
 Slip: TypeAlias = tuple[float, float, float, float]  # u, w_z
 
@@ -36,7 +36,7 @@ def impact(W: Array, start: Array, law: Record, I: Record) -> Array:
     scale, holds = np.sqrt(start[0] ** 2 + start[1] ** 2 + start[2] ** 2), law.mu_s > 0.0
     I.W[:], I.start[:], I.scale, I.J[:], I.allowed[:] = W, start, scale, 0.0, DIGITS * scale
     h = 0.01 * scale
-    for _ in range(MOST_STEPS):
+    for _ in range(MOST_OF_AN_IMPACT):
         q = after(I, I.J)
         if holds and spread(q, law) <= STOPPED * scale:
             rest = held(W, q, law)
@@ -44,9 +44,9 @@ def impact(W: Array, start: Array, law: Record, I: Record) -> Array:
             if np.hypot(rest[0], rest[1]) <= most * rest[2] and (rest[3] == 0.0 or abs(rest[3]) <= twists * rest[2]):
                 return I.J + rest
             I.J[:], holds = I.J + away(W, q, rest, scale), False
-        found = attempt(I, law, h)
+        found = grow_impulse(I, law, h)
         if found < 1.0 and after(I, I.new)[2] >= 0.0:  # u_z = 0 within this step: found by varying its length
-            attempt(I, law, zero(rising, 0.0, h, (I, law)))
+            grow_impulse(I, law, zero(rising, 0.0, h, (I, law)))
             return I.new.copy()
         if found < 1.0:
             I.J[:] = I.new
@@ -78,7 +78,7 @@ def held(W: Array, q: Slip, law: Record) -> Array:
     matrix, J = W.copy(), np.array([-q[0], -q[1], -q[2], -q[3]])
     if not law.pivots:
         J[3] = 0.0
-    solve(matrix, J, 4 if law.pivots else 3)
+    solve_linear(matrix, J, 4 if law.pivots else 3)
     return J
 
 
@@ -87,12 +87,12 @@ def away(W: Array, q: Slip, rest: Array, scale: float) -> Array:
     """The impulse with which it goes on slipping: slowly, opposite to the one that would have held it."""
     size, matrix, J = np.hypot(rest[0], rest[1]), W.copy(), np.zeros(4)
     J[0], J[1] = -2 * STOPPED * scale * rest[0] / size - q[0], -2 * STOPPED * scale * rest[1] / size - q[1]
-    solve(matrix, J, 3)
+    solve_linear(matrix, J, 3)
     return J
 
 
 @compiled
-def attempt(I: Record, law: Record, h: float) -> float:
+def grow_impulse(I: Record, law: Record, h: float) -> float:
     """Writes the impulse after a step of length h from I.J into I.new; returns the ratio of its error to the allowed
     one."""
     grow(I, law, I.J, I.K[0])
@@ -107,7 +107,7 @@ def attempt(I: Record, law: Record, h: float) -> float:
 @shared_with_kernels
 def rising(h: float, I: Record, law: Record) -> float:
     """u_z after a step of length h."""
-    attempt(I, law, h)
+    grow_impulse(I, law, h)
     return after(I, I.new)[2]
 
 

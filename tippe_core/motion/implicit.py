@@ -16,7 +16,7 @@ from ..compiled import compiled
 from ..types import Array
 from . import at
 from .contacts import margin
-from .dynamics import clock, rates, turning
+from .dynamics import rates, time_scale, turning
 from .elimination import decompose, substitute
 from .records import BALL, NO_ONE, SLIP, STEM, Record
 from .stepper import STAGES, stage
@@ -58,8 +58,8 @@ H_IJ = np.array([
 ])  # fmt: skip
 FEEDS = np.array([0, 1, 2, 3, 5, 6, 7, 8, 9])  # the components on which the rates depend: p, L, v_x and v_y
 STIFF = 4.0  # relaxation times of the slip in a step; those of stepper.py are stable up to about 6
-CREEPS = 1e-3  # ((gR)^1/2): slip above which implicit steps are hardly longer than others
-NEAR = 1e-8  # ((gR)^1/4): times the root of the slip, the change of v for a difference quotient
+CREEPING_SLIP = 1e-3  # ((gR)^1/2): slip above which implicit steps are hardly longer than others
+DIFFERENCE = 1e-8  # ((gR)^1/4): times the root of the slip, the change of v for a difference quotient
 TOLERANCE = 5e-9  # the least tolerance of an implicit step
 
 
@@ -79,11 +79,16 @@ def slowness(w_z: float, ball: int, stem: int, P: Record, C: Record) -> tuple[fl
 
 @compiled
 def is_stiff(W: Record, P: Record, h: float) -> bool:
-    """Whether stability would limit the steps of stepper.py, after a step of length h to step.new."""
+    """Whether stability would limit the steps of stepper.py, after a step of length h to step.new, whose slip it keeps
+    in W.slip."""
     C, ball, stem = W.contacts, W.modes[BALL], W.modes[STEM]
     w_z = turning(W.step.new, P)[1][2]
     least, k_N = slowness(w_z, ball, stem, P, C)
-    return least < CREEPS and h * (1.0 if W.implicit else clock(ball, stem, w_z, P, C)) * k_N * (1 + 1 / P.I1) > STIFF
+    W.slip = least
+    return (
+        least < CREEPING_SLIP
+        and h * (1.0 if W.implicit else time_scale(ball, stem, w_z, P, C)) * k_N * (1 + 1 / P.I1) > STIFF
+    )
 
 
 @compiled
@@ -103,7 +108,7 @@ def differentiate(W: Record, P: Record) -> None:
     rates_in_time(S.z, ball, stem, P, C, S.K[0])
     w = turning(S.z, P)[1]
     slip = slowness(w[2], ball, stem, P, C)[0]
-    small = NEAR * np.sqrt(slip)
+    small = DIFFERENCE * np.sqrt(slip)
     S.at[:] = S.z
     for n in range(len(FEEDS)):
         i = FEEDS[n]

@@ -18,20 +18,26 @@ from ..types import Array, Bools
 from . import at, events, preparing
 from .dynamics import carried
 from .friction import LAWS
+from .nudge import beside, checked_nudge
 from .periodic import run_all
 from .poses import sample_at
 from .records import LOG, OPEN, SAMPLE, Record, new
 from .run import ENDED, MORE
-from .sliding import beside, checked_nudge
-from .summary import begin, energy
+from .summary import begin, energy_at
 
-MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # in one motion
-EACH = 20_000  # steps between two checks for a stop
+CELL_EVENTS, CELL_STEPS = 4000, 1_000_000  # in one motion
+STEPS_BETWEEN_STOPS = 20_000  # steps between two checks for a stop
 CELLS = 16  # motions a thread takes at a time
 
 
 class States(NamedTuple):
-    """Many States, as one array for each field of State."""
+    """Many States, as one array for each field of State.
+
+    Attributes
+    ----------
+    theta, theta_dot, omega2, omega3, phi, psi, x, y, vx, vy : array
+        as in State
+    """
 
     theta: Array
     theta_dot: Array
@@ -49,23 +55,35 @@ class States(NamedTuple):
 class Many:
     """The results of many motions: read-only arrays of the shape to which the arguments broadcast, in units of R, M, g.
 
-    theta_end, state_end  the final theta (rad), and the final States, in the form that slide_many() accepts: at t_end,
-                          or where the motion ended earlier
-    time_90, time_stem    when theta first passes 90 degrees, when the stem first touches; nan if never
-    hops, flew            the number of times it left the table; whether it ever did
-    F_z_least             the least F_z while the top was on the table, at the ends of steps
-    heat                  the energy lost by friction, rolling resistance, air drag and impacts
-    energy_error          energy and heat at the end, minus the energy at the start
-    C_J_drift             the largest change of C_J until the stem touches, relative to C_J; nan with a pivoting torque
-                          (Contensou's law), rolling resistance or air drag
-    growth                the factor by which a disturbance of the initial theta has grown by the end; nan without nudge
-    end                   judged by the last tenth of the time, in this order: "refused" (no such top, start or
-                          friction; Painleve's limit; the ball's surface ends; too many events or steps), "stem" (on its
-                          stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its ball, theta > pi - 0.2),
-                          "leaning" (theta constant within 0.05 rad), "rolling" (without slipping, nutating), "moving"
-    reason                why a motion is "refused": the code of the TopError that slide() raises, "too-strong" or
-                          "beyond-rim" also of an event, "too-many-events", "too-many-steps", or "lifts-off" if landing
-                          is to stop it there; "" elsewhere
+    Attributes
+    ----------
+    theta_end, state_end : array, States
+        the final theta (rad), and the final States, in the form that slide_many() accepts: at t_end, or where the
+        motion ended earlier
+    time_90, time_stem : array
+        when theta first passes 90 degrees, when the stem first touches; nan if never
+    hops, flew : array of int, of bool
+        the number of times it left the table; whether it ever did
+    F_z_least : array
+        the least F_z while the top was on the table, at the ends of steps, Mg
+    heat : array
+        the energy lost by friction, rolling resistance, air drag and impacts, MgR
+    energy_error : array
+        energy and heat at the end, minus the energy at the start, MgR
+    C_J_drift : array
+        the largest change of C_J until the stem touches, relative to C_J; nan with a pivoting torque (Contensou's
+        law), rolling resistance or air drag
+    growth : array
+        the factor by which a disturbance of the initial theta has grown by the end; nan without nudge
+    end : array of str
+        judged by the last tenth of the time, in this order: "refused" (no such top, start or friction; Painleve's
+        limit; the ball's surface ends; too many events or steps), "stem" (on its stem alone), "upright" (on its
+        ball, theta < 0.2), "inverted" (on its ball, theta > pi - 0.2), "leaning" (theta constant within 0.05 rad),
+        "rolling" (without slipping, nutating), "moving"
+    reason : array of str
+        why a motion is "refused": the code of the TopError that slide() raises, "too-strong" or "beyond-rim" also
+        of an event, "too-many-events" (after 4,000; slide() allows 10,000), "too-many-steps" (after a million;
+        slide() allows four), or "lifts-off" if landing is to stop it there; "" elsewhere
     """
 
     theta_end: Array
@@ -104,20 +122,46 @@ def slide_many(
     nudge: float | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
     progress: Callable[[float], object] | None = None, landing: str = "plastic", executor: Executor | None = None,
 ) -> Many:  # fmt: skip
-    """Many, the results of many motions like those of slide(), from 0 to t_end, on all cores.
+    """The results of many motions like those of slide(), from 0 to t_end, on all cores.
 
-    top, state, friction: a Top, a State and a friction law, Top and State perhaps with arrays as fields; or lists or
-    arrays of them; or any objects that have their fields as arrays, such as types.SimpleNamespace(mu=..., radius=...).
-    The fields that tell a law are mu_k (and perhaps mu_s), gamma, mu and eps, or mu and radius. t_end: a number or an
-    array, in (R/g)^1/2. edge: (..., 2 or 3) as in slide(). All these broadcast together. A cell for which slide() would
-    raise a TopError is "refused", and its numbers are nan; reason has the error's code. rtol: 1e-13 to 1e-3. nudge: in
-    rad, as in sensitivity(); each motion is then computed twice. rolling_resistance, air_drag, landing: as in slide().
+    All of top, state, friction, t_end and edge broadcast together.
 
-    executor: any concurrent.futures.Executor, such as a ProcessPoolExecutor; by default threads, one for each core that
-    the process may use. The numbers do not depend on it. progress: is called from time to time with the fraction done;
-    an exception that it raises stops everything and is passed on (in other processes the motions that are under way,
-    CELLS of them each, are still computed). Raises TopError for shapes that do not broadcast, for anything that is
-    no top, state or law, and for a bad rtol, nudge, rolling_resistance, air_drag or landing.
+    Parameters
+    ----------
+    top, state, friction : Top, State, Friction
+        Top and State perhaps with arrays as fields; or lists or arrays of them; or any objects that have their
+        fields as arrays, such as types.SimpleNamespace(mu=..., radius=...). The fields that tell a law are mu_k
+        (and perhaps mu_s), gamma, mu and eps, or mu and radius
+    t_end : float or array
+        in (R/g)^1/2
+    edge : array (..., 2 or 3) or None
+        as in slide()
+    rtol : float
+        1e-13 to 1e-3
+    nudge : float or None
+        in rad, as in sensitivity(); each motion is then computed twice
+    rolling_resistance, air_drag : float
+        as in slide()
+    progress : callable or None
+        called from time to time with the fraction done; an exception that it raises stops everything and is passed
+        on (in other processes the motions that are under way, CELLS of them each, are still computed)
+    landing : str
+        as in slide()
+    executor : concurrent.futures.Executor or None
+        such as a ProcessPoolExecutor; by default threads, one for each core that the process may use. The numbers
+        do not depend on it
+
+    Returns
+    -------
+    Many
+        a cell for which slide() would raise a TopError is "refused", and its numbers are nan; reason has the
+        error's code
+
+    Raises
+    ------
+    TopError
+        for shapes that do not broadcast, for anything that is no top, state or law, and for a bad rtol, nudge,
+        rolling_resistance, air_drag or landing
     """
     how = _How(preparing.checked_rtol(rtol), None if nudge is None else checked_nudge(nudge),
                preparing.checked_losses(rolling_resistance, air_drag), preparing.flies(landing),
@@ -223,10 +267,10 @@ def _compute(row: Any, cell: tuple[Any, ...], how: _How) -> None:
         raise TopError("t_end", t_end, "t_end >= 0")
     preparing.check_balance(top, friction)
     P = preparing.problem(top, friction, preparing.checked_edge(edge), how.losses, how.rtol)
-    _follow(row, state, P, t_end, how)
+    _run_to_end(row, state, P, t_end, how)
     if how.nudge is not None:
         near = np.zeros((), RESULT)[()]
-        _follow(near, beside(state, how.nudge), P, t_end, how)
+        _run_to_end(near, beside(state, how.nudge), P, t_end, how)
         row["growth"] = abs(near["state"][0] - row["state"][0]) / abs(how.nudge)
 
 
@@ -235,18 +279,18 @@ REASONS = {events.PAINLEVE: "too-strong", events.RIM_TOUCHES: "beyond-rim", even
            events.LIFTS_OFF: "lifts-off"}  # fmt: skip
 
 
-def _follow(row: Any, state: State, P: Record, t_end: float, how: _How) -> None:
+def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> None:
     y, angles = preparing.beginning(state, 0.0, P)
-    W, log, status = preparing.motion(y, angles), np.zeros(2 * MOST_EVENTS, LOG), ENDED
+    W, log, status = preparing.motion(y, angles), np.zeros(2 * CELL_EVENTS, LOG), ENDED
     _, goes_on = preparing.start(W, P, state)
-    E = energy(W, P)
+    E = energy_at(W, P)
     begin(W, P, log, (1 - LAST) * t_end)
     if goes_on and not carried(*W.modes) and not how.flies and state.z is None:
         events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
     elif goes_on:
         status = MORE
-        while status == MORE and W.steps < MOST_STEPS and not (how.stop and how.stop.is_set()):
-            status = run_all(W, P, log, t_end, how.flies, EACH)
+        while status == MORE and W.steps < CELL_STEPS and not (how.stop and how.stop.is_set()):
+            status = run_all(W, P, log, t_end, how.flies, STEPS_BETWEEN_STOPS)
     T, entries, here = W.summary, log[: W.logged], new(SAMPLE)
     last = entries["name"][-1] if status == ENDED and len(entries) else -1
     reason = ("too-strong" if not goes_on else "too-many-steps" if status == MORE
@@ -263,7 +307,7 @@ def _follow(row: Any, state: State, P: Record, t_end: float, how: _How) -> None:
         events.first(entries, events.FIRST_TOUCH),
     )
     row["F_z_least"], row["hops"] = T.F_z_least if np.isfinite(T.F_z_least) else np.nan, T.hops
-    row["heat"], row["energy_error"] = W.y[at.HEAT], energy(W, P) + W.y[at.HEAT] - E
+    row["heat"], row["energy_error"] = W.y[at.HEAT], energy_at(W, P) + W.y[at.HEAT] - E
     if not (P.law.pivots or P.drag > 0 or P.delta > 0):
         row["C_J_drift"] = T.drift / (abs(T.C_J) or 1.0)
     row["end"], row["reason"] = judged(bool(reason), on, T.least, T.most, not T.slips), reason

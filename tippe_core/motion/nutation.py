@@ -30,14 +30,15 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Complex, Scalars
 from .crowding import Crowding, crowded, crowding, eta_halves
-from .phase import Ends, Pose, clock, pose, tilts, v_and_m
+from .phase import Ends, Pose, pose, split_phase, tilts, v_and_m
 from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
-from .trajectory import checked_times
+from .trajectory import PASSES_90, checked_times
 
 NODES_LEAST, NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that at which two wells merge
+MOST_NOTES, AT_ONCE = 10_000, 1e-12  # passages of 90 degrees that are listed; phase that counts as none
 SHARP = 3.0  # dt/dkappa may have a peak if it varies by more than this factor
 Phases: TypeAlias = tuple[Array, Array, Array]  # whole periods, half periods (0 or 1), remaining phase; (n,) each
-NONE = np.zeros((0, 1))  # no series
+NO_SERIES = np.zeros((0, 1))  # no series
 
 
 class Nodes(NamedTuple):
@@ -227,21 +228,38 @@ class Nutation(ABC):
     @cached_property
     def _start_phase(self) -> tuple[float, float]:
         """The half period and the remaining phase at the start, to full precision near either turning point."""
-        sine, cosine = self._place
         if self.ends.width == 0:
             return 0.0, 0.0
+        half, tau = self._phase_of(*self._place)
+        return half, -tau if self._inward != bool(half) else tau
+
+    def _phase_of(self, sine: float, cosine: float) -> tuple[float, float]:
+        """The nearer turning point, as a half period, and the phase between it and the place where sin(kappa/2) :
+        cos(kappa/2) has this ratio."""
         half = float(sine > cosine)
         s_eta, c_eta = eta_halves(sine, cosine, self._crowding)
         dt_deta = self._time.dt_deta
         if half:  # seen from the outer turning point every other coefficient changes sign
             s_eta, c_eta, dt_deta = c_eta, s_eta, dt_deta * (-1.0) ** np.arange(len(dt_deta))
-        tau = integral_to(2 * np.arctan2(s_eta, c_eta), dt_deta) * (2 / dt_deta[0])
-        return half, -tau if self._inward != bool(half) else tau
+        return half, integral_to(2 * np.arctan2(s_eta, c_eta), dt_deta) * (2 / dt_deta[0])
+
+    def _notes(self, t: Array) -> tuple[tuple[float, str], ...]:
+        """When theta passes 90 degrees, from t[0] to the last of the times t (n,); MOST_NOTES times at most."""
+        inner, outer = 1 - self.ends.v1, 1 - self.ends.v2
+        if not outer < 0 < inner:
+            return ()
+        (begins, begins_rest), (half, tau) = self._start_phase, self._phase_of(inner**0.5, (-outer) ** 0.5)
+        outwards = np.pi * half + (-tau if half else tau)
+        first = np.sort((np.array([outwards, -outwards]) - np.pi * begins - begins_rest) % (2 * np.pi))
+        first[first > 2 * np.pi - AT_ONCE] = 0.0
+        whole = min(float(np.max(t) - t[0]) / self.period, MOST_NOTES)
+        turns = (np.arange(int(whole) + 1)[:, None] + np.sort(first) / (2 * np.pi)).ravel()
+        return tuple((float(t[0] + turn * self.period), PASSES_90) for turn in turns[turns <= whole][:MOST_NOTES])
 
     def _phases(self, times: ArrayLike) -> Phases:
         """The Phases at the times; the motion starts at the first of them."""
         t = checked_times(times)
-        return clock(t - t[0], self.period, *self._start_phase)
+        return split_phase(t - t[0], self.period, *self._start_phase)
 
     def theta(self, t: ArrayLike) -> Scalars:
         """theta in rad at the times t since the start, in (R/g)^1/2: a number or an array."""
@@ -266,7 +284,7 @@ class Nutation(ABC):
 
     def _more_series(self) -> tuple[Array, Array]:
         """Further sine and cosine series of a subclass."""
-        return NONE, NONE
+        return NO_SERIES, NO_SERIES
 
     def _pose(self, phases: Phases, *turn: float) -> tuple[Pose, Array]:
         """The Pose at the phases, with phi and psi increased by turn = (d_phi, d_psi), and the sums of further

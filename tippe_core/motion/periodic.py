@@ -10,9 +10,9 @@ from ..types import Array
 from . import at
 from .events import happens
 from .kinds import Event
-from .poses import tilt, turned
+from .poses import continue_angles, tilt_of
 from .records import NO_ONE, SAMPLE, Record
-from .run import ENDED, MORE, OVER, ROLLS, follow, run
+from .run import ENDED, HANDS_OVER, MORE, OVER, follow, run
 from .stepper import at_share, densely
 from .summary import up_rate, up_rate_at
 
@@ -24,7 +24,7 @@ def run_all(W: Record, P: Record, log: Array, end: float, flies: bool, steps: in
     exact = P.delta == 0.0 and P.drag == 0.0
     while True:
         status = run(W, P, log, none, rows, end, flies, exact, limit - W.steps)
-        if status != ROLLS:
+        if status != HANDS_OVER:
             return status
         event = nutate(W, P, log, none, rows, end, limit)
         if event[0] == OVER or event[0] == MORE:
@@ -63,10 +63,10 @@ def turns(W: Record, P: Record, out: Array) -> None:
     S, angles = W.step, W.angles.copy()
     densely(W, P, NO_ONE, S.new[at.TIME] - S.z[at.TIME])
     at_share(S, zero(up_rate_at, 0.0, 1.0, (S, P)), S.at)
-    turned(S.at, angles)
+    continue_angles(S.at, angles)
     out[0], out[1], out[2] = S.at[at.TIME], angles[0] + angles[1], angles[0] - angles[1] + S.at[at.CHI]
     out[3], out[4] = S.at[at.X], S.at[at.Y]
-    out[5] = tilt(S.at)
+    out[5] = tilt_of(S.at)
 
 
 @compiled

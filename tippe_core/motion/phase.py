@@ -41,7 +41,7 @@ class Pose(NamedTuple):
 
 
 @compiled
-def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array, Array, Array]:
+def split_phase(passed: Array, period: float, half: float, rest: float) -> tuple[Array, Array, Array]:
     """Whole periods, half periods (0 or 1) and the remaining phase, -pi/2 to pi/2, (n,) each, at the times (n,) after
     the instant at which the phase was pi half + rest."""
     n = len(passed)
@@ -74,11 +74,11 @@ def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
 
 @compiled
 def tilts(passed: Array, period: float, half: float, rest: float, kappa: Array, ends: Ends) -> tuple[Array, Array]:
-    """sin(theta) and cos(theta), (n,) each. Arguments as in clock(), and the series (1, K) of kappa - tau."""
+    """sin(theta) and cos(theta), (n,) each. Arguments as in split_phase(), and the series (1, K) of kappa - tau."""
     s, c = np.empty(len(passed)), np.empty(len(passed))
     for first in range(0, len(passed), BLOCK):
         block = slice(first, min(first + BLOCK, len(passed)))
-        _, halves, rests = clock(passed[block], period, half, rest)
+        _, halves, rests = split_phase(passed[block], period, half, rest)
         tilt(halves, rests, sums(halves, rests, kappa, kappa[:0])[0], ends, s[block], c[block])
     return s, c
 

@@ -14,7 +14,7 @@ REGIMES = np.array(["air", "slip", "roll"])
 
 
 @compiled
-def turned(y: Array, angles: Array) -> None:
+def continue_angles(y: Array, angles: Array) -> None:
     """(phi + psi - chi)/2 and (phi - psi + chi)/2 at y, continued from angles, half turns included.
 
     p_w + i p_z = cos(theta/2) exp i(phi + psi - chi)/2,  p_x + i p_y = sin(theta/2) exp i(phi - psi + chi)/2
@@ -27,7 +27,7 @@ def turned(y: Array, angles: Array) -> None:
 
 
 @compiled
-def tilt(y: Array) -> float:
+def tilt_of(y: Array) -> float:
     """theta"""
     return 2 * np.arctan2(np.hypot(y[at.PX], y[at.PY]), np.hypot(y[at.PZ], y[at.PW]))
 
@@ -39,7 +39,7 @@ def record(
     """The SAMPLE at y, after forces()."""
     e, w, _ = turning
     phi, psi = angles[0] + angles[1], angles[0] - angles[1] + y[at.CHI]
-    theta = tilt(y)
+    theta = tilt_of(y)
     out.t, out.theta, out.phi, out.psi, out.heat = t, theta, phi, psi, y[at.HEAT]
     # q = p Rz(chi)
     size = 1 / np.sqrt(y[at.PX] ** 2 + y[at.PY] ** 2 + y[at.PZ] ** 2 + y[at.PW] ** 2)

@@ -66,7 +66,18 @@ def checked_profile(profile: ArrayLike) -> Array:
 
 def strongest_friction(top: Top) -> float:
     """The coefficient of sliding friction above which, at some tilt and direction of slip, no normal force balances the
-    friction on the ball (Painleve's paradox): the minimum of (I1 + a^2 s^2)/(|a| (1 - a c) s)."""
+    friction on the ball (Painleve's paradox): the minimum of (I1 + a^2 s^2)/(|a| (1 - a c) s).
+
+    Parameters
+    ----------
+    top : Top
+        the top
+
+    Returns
+    -------
+    float
+        inf for a = 0
+    """
     a, I1, _ = top.numbers
     if a == 0:
         return np.inf

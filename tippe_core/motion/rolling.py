@@ -6,7 +6,6 @@ Q, however close c1 and c2 are: a steady precession is no special case.
 
 from decimal import Decimal, localcontext
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,51 +21,79 @@ from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
 from .nutation import NODES_MOST, Nodes, Nutation
-from .phase import Ends, Pose, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
-from .series import part_turn
+from .phase import Ends, Pose, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
+from .track import Path, Track, path
 from .trajectory import Trajectory, checked_times
-
-
-class Path(NamedTuple):
-    """For the path of the contact point: the rotation rate, per unit of phase, of the axes in which its velocity is
-    periodic; the slowest rate of its terms in space, and the amplitude of that term; the displacement by the constant
-    term; and dt/dtau."""
-
-    rate: float
-    slow: float
-    amplitude: float
-    still: float
-    scale: float
-
-
-class Track(NamedTuple):
-    """The series that a Path needs, (1, K) each: of the real part, and minus that of the imaginary part."""
-
-    sines: Array
-    cosines: Array
-    path: Path
 
 
 def roll(
     top: Top, constants: Constants | None, times: ArrayLike, start: State | str = "inner", well: int = 0
 ) -> Trajectory:
-    """The Trajectory of the motion without slipping at the given times. Exact to rounding error for any length of time.
+    """The motion without slipping at the given times. Exact to rounding error for any length of time.
 
-    constants: K_J, K_R and E (numbers), or None if start is a State.
-    times: (n,) in (R/g)^1/2, in any order; the motion starts at times[0].
-    start: "inner" or "outer" turning point, or a State. At times[0] phi = psi = 0 and the contact point is at the
-    origin, unless the State says otherwise. well: the row of turning_points() to which the motion belongs, if there are
-    several (a State determines it). Raises TopError (NoMotionError if the energy is below every well).
+    Parameters
+    ----------
+    top : Top
+        the top
+    constants : Constants or None
+        K_J, K_R and E (numbers); None if start is a State
+    times : array (n,)
+        in (R/g)^1/2, in any order; the motion starts at times[0]
+    start : "inner", "outer" or State
+        a turning point, or a State. At times[0] phi = psi = 0 and the contact point is at the origin, unless the
+        State says otherwise
+    well : int
+        the row of turning_points() to which the motion belongs, if there are several (a State determines it)
+
+    Returns
+    -------
+    Trajectory
+        at the times
+
+    Raises
+    ------
+    NoMotionError
+        if the energy is below every well
+    TopError
+        for other bad input
     """
     return Rolling(top, constants, start, well)(times)
 
 
 class Rolling(Nutation):
-    """The motion without slipping as an object; arguments as in roll().
+    """The motion without slipping as an object; arguments as in roll(), without the times.
 
-    start: the State at the start. period: that of the nutation, in (R/g)^1/2. turning_points: (2,) in rad. phi_advance,
-    psi_advance: rad per period. theta(t) gives theta alone, t since the start; calling the object with times gives the
-    Trajectory, which starts at times[0].
+    theta(t) gives theta alone, t since the start; calling the object with times gives the Trajectory, which starts at
+    times[0].
+
+    Parameters
+    ----------
+    top : Top
+        the top
+    constants : Constants or None
+        as in roll()
+    start : "inner", "outer" or State
+        as in roll()
+    well : int
+        as in roll()
+
+    Attributes
+    ----------
+    start : State
+        at the start
+    turning_points : array (2,)
+        in rad
+    period : float
+        of the nutation, in (R/g)^1/2
+    phi_advance, psi_advance : float
+        rad in one period
+    K_J, K_R, E : float
+        the constants (30), (31) and (6)
+
+    Raises
+    ------
+    TopError
+        as roll()
     """
 
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
@@ -82,6 +109,7 @@ class Rolling(Nutation):
             self.ends = Ends(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *curve.offsets)))
             self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
+            self.E = float(eq.E_of(exact.e, exact.K_J, exact.K_R, curve.top))
         self._curve = Floats(top.numbers, self.K_R, self.ends.upright, self.ends.inverted)
         self._given = start if isinstance(start, State) else None
         self._inward = isinstance(start, State) and start.theta_dot < 0
@@ -94,12 +122,12 @@ class Rolling(Nutation):
         at_inner = self._place[0] == 0
         cos_half, sin_half = (np.array([float(x)]) for x in (at_inner, not at_inner))
         v, m = v_and_m(cos_half, sin_half, self.ends)
-        w1, w2, w3 = omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)[0]
+        w1, w2, w3 = rolling_omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)[0]
         pole = v[0] * m[0] == 0
         return State(self.turning_points[0 if at_inner else 1], w1 if pole else 0.0, 0.0 if pole else w2, w3)
 
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
-        return dt_dkappa(v, m, self._curve, self.e, self.ends)
+        return rolling_dt_dkappa(v, m, self._curve, self.e, self.ends)
 
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
         curve, inner, outer = self._exact
@@ -115,17 +143,16 @@ class Rolling(Nutation):
                             "It is too near to an unstable steady precession, or f1 or f3 nearly vanishes in the "
                             "well; change the start a little.", code="start-not-resolved",
                             nodes=NODES_MOST)  # fmt: skip
-        E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
-        return TopError("E", E, "an energy whose nutation {nodes} nodes resolve",
+        return TopError("E", self.E, "an energy whose nutation {nodes} nodes resolve",
                         "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
                         "well; change E a little.", code="energy-not-resolved", nodes=NODES_MOST)  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return sigma_rates(v, m, dt_dkappa, self._curve, self.ends)
+        return rolling_sigma_rates(v, m, dt_dkappa, self._curve, self.ends)
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
-        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)
+        return rolling_omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)
 
     def _contact_velocity(self, nodes: Nodes) -> Complex:
         return contact_velocity(*nodes[:5], self._curve, self.ends)
@@ -170,19 +197,19 @@ class Rolling(Nutation):
         return Trajectory(
             top=top, t=t, theta=pose.theta, phi=pose.phi, psi=pose.psi, quaternion=pose.quaternion,
             contact=at, com=com, velocity=velocity, omega=w, slip=np.zeros((len(t), 2)), force=force,
-            regime=np.full(len(t), "roll"))  # fmt: skip
+            regime=np.full(len(t), "roll"), notes=self._notes(t))  # fmt: skip
 
 
 # ---- the loops over nodes and times ----
 
 
 @compiled
-def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, ends: Ends) -> Array:
+def rolling_dt_dkappa(v: Array, m: Array, curve: Floats, e: float, ends: Ends) -> Array:
     """Q^-1/2 (n,) at v = 1 - c, m = 1 + c, (n,)."""
-    inner, outer = place(ends.v1, ends.m1, curve), place(ends.v2, ends.m2, curve)
+    inner, outer = place_at(ends.v1, ends.m1, curve), place_at(ends.v2, ends.m2, curve)
     found = np.empty(len(v))
     for i in range(len(v)):
-        Q = differences.Q(inner, outer, place(v[i], m[i], curve), curve.K_R, e, curve.top)
+        Q = differences.Q(inner, outer, place_at(v[i], m[i], curve), curve.K_R, e, curve.top)
         if Q > 0:
             found[i] = 1 / np.sqrt(Q)
         else:  # at rest in an unstable steady precession any rate of kappa will do
@@ -191,24 +218,26 @@ def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, ends: Ends) -> Array:
 
 
 @compiled
-def place(v: float, m: float, curve: Floats) -> Place:
+def place_at(v: float, m: float, curve: Floats) -> Place:
     """The Place in the form that differences.py uses."""
     c, s2 = 1 - v, v * m
-    return Place(c, s2, np.sqrt(eq.f3_2(c, s2, curve.top)), bracket(v, m, curve)[0])
+    return Place(c, s2, np.sqrt(eq.f3_2(c, s2, curve.top)), bracket_at(v, m, curve)[0])
 
 
 @compiled
-def bracket(v: float, m: float, curve: Floats) -> tuple[float, float]:
+def bracket_at(v: float, m: float, curve: Floats) -> tuple[float, float]:
     """B of (36), which is s w2, without cancellation near the poles; and w3."""
     return bracket_near(1.0, v, curve) if v <= m else bracket_near(-1.0, m, curve)
 
 
 @compiled
-def omega(cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, width: float) -> Array:
+def rolling_omega(
+    cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, width: float
+) -> Array:
     """(n, 3): omega about 1', 2', 3."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
-        B, w[i, 2] = bracket(v[i], m[i], curve)
+        B, w[i, 2] = bracket_at(v[i], m[i], curve)
         s = np.sqrt(v[i] * m[i])
         w[i, 1] = B / s if s > 0 else 0.0
         w[i, 0] = theta_dot(cos_half[i], sin_half[i], v[i], m[i], dt_dkappa[i], width)
@@ -216,7 +245,7 @@ def omega(cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array
 
 
 @compiled
-def sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends) -> Array:
+def rolling_sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends) -> Array:
     """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
     rates = np.empty((2, len(v)))
     for i in range(len(v)):
@@ -239,7 +268,7 @@ def contact_velocity(
     """(n,): the velocity of the contact point, (w2 c - w3 s, -w1) in the rotating axes, over exp i(sigma_- +
     sigma_+)."""
     velocity = np.empty(len(v), np.complex128)
-    w = omega(cos_half, sin_half, v, m, dt_dkappa, curve, ends.width)
+    w = rolling_omega(cos_half, sin_half, v, m, dt_dkappa, curve, ends.width)
     for i in range(len(v)):
         s = np.sqrt(v[i] * m[i])
         upright = pole_factor(cos_half[i], sin_half[i], ends.v1, ends.v2, ends.upright)
@@ -247,26 +276,6 @@ def contact_velocity(
         direction = upright * inverted / s if s > 0 else 1.0 + 0.0j
         velocity[i] = direction * complex(w[i, 1] * (1 - v[i]) - w[i, 2] * s, -w[i, 0])
     return velocity
-
-
-@compiled
-def path(turns: Array, half: Array, rest: Array, Y_re: Array, Y_im: Array, of: Path, d_phi: float) -> Complex:
-    """(n,): the contact point at the phases, from the sums of its series (n,), all rotated by d_phi."""
-    contact = np.empty(len(rest), np.complex128)
-    turned = of.scale * cis(d_phi)
-    before, whole, periods = np.nan, turned, turned
-    for i in range(len(rest)):
-        tau = np.pi * half[i] + rest[i]
-        if turns[i] != before:
-            before = turns[i]
-            part = np.pi * part_turn(turns[i], of.slow)
-            whole = turned * cis(2 * part)
-            # the one term of the velocity that may rotate very slowly, over whole periods
-            periods = turned * (2 * cis(part) * np.sin(part) / of.slow if of.slow else 2 * np.pi * turns[i] + 0j)
-        x = of.slow * tau / 2
-        along = periods + whole * tau * cis(x) * (np.sin(x) / x if x else 1.0)
-        contact[i] = whole * cis(of.rate * tau) * complex(Y_re[i], -(Y_im[i] + of.still)) + of.amplitude * along
-    return contact
 
 
 @compiled

@@ -12,22 +12,23 @@ from .friction import is_point
 from .impact import halted
 from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
 from .kinds import HALTS, LEAVES, NONE, SLIPS, Event
-from .poses import record, turned
+from .poses import continue_angles, record
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 from .stepper import STAGES, within
 from .summary import summarize, watch_tilt
 
 # Why else follow() or run() returns: the times are over; more steps are needed; Coulomb friction makes the ball roll;
 # it has ended.
-OVER, MORE, ROLLS, ENDED = range(NONE - 1, NONE - 5, -1)
+OVER, MORE, HANDS_OVER, ENDED = range(NONE - 1, NONE - 5, -1)
 
-FIRST = 1e-3  # (R/g)^1/2: the first step; the following ones grow fast
-SMALLEST = 1e-13  # (R/g)^1/2: the smallest step
-NEAR = 0.1  # a guard this close to 0 is examined along the step
+FIRST_STEP = 1e-3  # (R/g)^1/2: the first step; the following ones grow fast
+SHORTEST_STEP = 1e-13  # (R/g)^1/2: the smallest step
+NEAR_EVENT = 0.1  # a guard this close to 0 is examined along the step
 SLIPS_LITTLE = 1e-3  # the least relative accuracy of a slip
+OF_SLIP, SLIP_DIGITS = 0.01, 1e-10  # the tolerance of an implicit step: at most so much of the slip, but not less
 LEAP = 2.0  # a slip grows by exp(LEAP) in one step at most: the error of the polynomial through the step is not
 # controlled, and the exponential would magnify it
-STIFF = 10.0  # if beta relaxes so many times faster than log|u| changes, it is kept at its steady value
+STIFF_DIRECTION = 10.0  # if beta relaxes so many times faster than log|u| changes, it is kept at its steady value
 NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin at which a patch may come to rest, if the tolerance is smaller
 
 
@@ -39,7 +40,7 @@ def run(
     limit = W.steps + steps
     while True:
         if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and is_point(P.law):
-            return ROLLS
+            return HANDS_OVER
         event = follow(W, P, log, times, rows, end, limit)
         if event[0] == OVER or event[0] == MORE:
             return event[0]
@@ -55,7 +56,7 @@ def follow(W: Record, P: Record, log: Array, times: Array, rows: Array, end: flo
     ball, stem = W.modes[BALL], W.modes[STEM]
     if W.begins:
         W.begins, W.rated, W.stiff, W.slowest = 0, 0, 0, NO_ONE
-        W.h = FIRST
+        W.h = FIRST_STEP
         arrange(y, NO_ONE, OPEN, OPEN, P, C)
         W.floor[0], W.floor[1] = min(C.height[0], 0.0), min(C.height[1], 0.0)
         contacts.guards(y, NO_ONE, ball, stem, W.floor, P, S, C, W.guards)
@@ -89,10 +90,10 @@ def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: fl
     if timed:  # free of rounding errors of the integration
         S.new[at.TIME] = end if h == end - y[at.TIME] else y[at.TIME] + h
     event, share, k, N = (NONE, BALL), 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
-    dense = near < NEAR or S.new[at.TIME] > end or (k < len(times) and times[k] <= S.new[at.TIME])
+    dense = near < NEAR_EVENT or S.new[at.TIME] > end or (k < len(times) and times[k] <= S.new[at.TIME])
     if dense:
         stepper.densely(W, P, slowest, h)
-    if near < NEAR:
+    if near < NEAR_EVENT:
         event, share = first_event(W, P, slowest)
     over = S.new[at.TIME] > end and (share == 1.0 or within(S, share, at.TIME) > end)
     if over:
@@ -142,14 +143,17 @@ def change_variables(W: Record, P: Record) -> int:
     if slowest != NO_ONE and least < P.tolerance ** (2 / 3):
         S.at[:] = S.z
         beta, attracts, grows = stepper.steady_direction(W, P, slowest)
-        W.steady = attracts > STIFF * abs(grows) and abs(beta - S.z[at.BETA]) < SLIPS_LITTLE
+        W.steady = attracts > STIFF_DIRECTION * abs(grows) and abs(beta - S.z[at.BETA]) < SLIPS_LITTLE
     return slowest
 
 
 @compiled
 def scales(W: Record, P: Record, slowest: int) -> None:
-    """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy."""
-    y, S, tolerance = W.y, W.step, max(P.tolerance, TOLERANCE if W.stiff else 0.0)
+    """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy. An implicit
+    step must not change the direction of a slip that is smaller than its tolerance."""
+    y, S, tolerance = W.y, W.step, P.tolerance
+    if W.stiff:
+        tolerance = min(max(tolerance, TOLERANCE), max(OF_SLIP * W.slip, SLIP_DIGITS))
     L = max(P.I1, np.sqrt(y[at.LX] * y[at.LX] + y[at.LY] * y[at.LY] + y[at.LZ] * y[at.LZ]))
     v = max(1.0, np.sqrt(y[at.VX] * y[at.VX] + y[at.VY] * y[at.VY] + y[at.VZ] * y[at.VZ]))
     S.scale[:] = tolerance
@@ -171,14 +175,14 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
         differentiate(W, P)
     while True:
         h = min(W.h, most)
-        found, near = implicit_step(W, P, h) if W.stiff else attempt(W, P, slowest, h)
+        found, near = implicit_step(W, P, h) if W.stiff else try_step(W, P, slowest, h)
         if slowest != NO_ONE and S.new[at.LOG_U] - S.z[at.LOG_U] > LEAP:
             found = np.inf
         factors = stepper.factor(found, order)
-        if found < 1.0 or h <= SMALLEST:
+        if found < 1.0 or h <= SHORTEST_STEP:
             break
         W.h = h * factors
-    W.h = max(h * factors, W.h if h < W.h else 0.0, SMALLEST)
+    W.h = max(h * factors, W.h if h < W.h else 0.0, SHORTEST_STEP)
     W.implicit = W.stiff
     W.stiff = P.law.radius > 0.0 and is_stiff(W, P, h)
     if W.stiff and not W.implicit:
@@ -189,7 +193,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
 
 
 @compiled
-def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]:
+def try_step(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]:
     """Computes the stages of a step of length h, and its end into step.new: its error, and the least margin()."""
     S, C, ball, stem, near = W.step, W.contacts, W.modes[BALL], W.modes[STEM], np.inf
     for s in range(1 if W.rated else 0, STAGES + 1):
@@ -227,7 +231,7 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     y[:] = S.at
     y[at.TIME] = t
     contacts.known(y, C)
-    turned(y, W.angles)
+    continue_angles(y, W.angles)
     return before
 
 
@@ -248,10 +252,12 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
         for i in range(1 + P.stem):
             speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2])
             if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
+                left = speed * (y[at.TIME] - W.step.z[at.TIME]) / (before - speed)  # time until it vanishes
+                if left * left > max(P.tolerance, NEARLY_STILL):  # it may as well grow again
+                    continue
                 holds = contacts.may_stick(y, ball, stem, i, P, C)
                 if holds or speed < contacts.NUDGE / 4:
                     rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
-                    left = speed * (y[at.TIME] - W.step.z[at.TIME]) / (before - speed)  # time until it vanishes
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
                     halted(y, i, P, C)
@@ -266,6 +272,6 @@ def sample(W: Record, P: Record, z: Array, slowest: int, t: float, rows: Array) 
     ball, stem = W.modes[BALL], W.modes[STEM]
     turn = arrange(z, slowest, ball, stem, P, C)
     forces(turn, ball, stem, P, C)
-    turned(z, W.angles)
+    continue_angles(z, W.angles)
     record(z, t, turn, W.angles, ball, stem, P, C, rows[k])
     W.samples = k + 1

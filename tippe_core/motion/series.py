@@ -159,9 +159,9 @@ def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
             if k:
                 next_harmonic(cos, sin, step_cos, step_sin)
             for row in range(r):
-                add(found[row, block], sines[row, k], sin)
+                add_wave(found[row, block], sines[row, k], sin)
             for row in range(len(cosines)):
-                add(found[r + row, block], cosines[row, k], cos)
+                add_wave(found[r + row, block], cosines[row, k], cos)
     return found
 
 
@@ -176,7 +176,7 @@ def cos_and_sin(half: Array, rest: Array) -> tuple[Array, Array]:
 
 
 @compiled
-def add(total: Array, b: float, wave: Array) -> None:
+def add_wave(total: Array, b: float, wave: Array) -> None:
     """total += b wave"""
     for j in range(len(total)):
         total[j] += b * wave[j]

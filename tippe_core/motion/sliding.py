@@ -5,17 +5,16 @@ in contacts.py, impact.py and standing.py. This file checks the arguments and bu
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite, single
+from ..errors import TopError, single
 from ..paper.constants import State, versines
 from ..paper.top import Top
-from ..types import Array, Number
+from ..types import Array
 from . import at, events, preparing
 from .contacts import SLACK, TOUCH, tilt_guards
 from .dynamics import carried
@@ -24,7 +23,7 @@ from .kinds import RIM, SLIPS, TOUCHES, Event
 from .poses import REGIMES, ROLLING, sample_at
 from .records import BALL, LOG, OPEN, SAMPLE, SLIP, STEM, Record, new
 from .rolling import Rolling
-from .run import MORE, ROLLS, run
+from .run import HANDS_OVER, MORE, run
 from .smooth import first_below, zeros
 from .summary import begin
 from .trajectory import ANOTHER_TOUCHES, Trajectory, checked_times, sunk
@@ -32,7 +31,7 @@ from .trajectory import ANOTHER_TOUCHES, Trajectory, checked_times, sunk
 MOST_EVENTS = 10_000
 MOST_STEPS = 4_000_000  # about half a minute
 Progress: TypeAlias = Callable[[float], object] | None
-EACH = 32  # steps between two calls of progress
+STEPS_BETWEEN_CALLS = 32  # steps between two calls of progress
 
 
 def slide(
@@ -40,46 +39,71 @@ def slide(
     edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
     progress: Callable[[float], object] | None = None, profile: ArrayLike | None = None,
 ) -> Trajectory:  # fmt: skip
-    """The Trajectory of the motion with friction at the given times.
+    """The motion with friction at the given times.
 
-    state: the State at times[0]; x, y, vx, vy None mean that G is at the origin, at rest.
-    friction: Coulomb(mu_k, mu_s), Viscous(gamma), SmoothedCoulomb(mu, eps) or Contensou(mu, radius).
-    times: (n,) in (R/g)^1/2, not decreasing.
-    rtol: 1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy.
-    While a top turns over, in 900 (R/g)^1/2, C_J changes by about 4 rtol C_J. Creep (implicit.py): 5e-9 at least.
+    Parameters
+    ----------
+    top : Top
+        the top
+    state : State
+        at times[0]; x, y, vx, vy None mean that G is at the origin, at rest
+    friction : Friction
+        Coulomb(mu_k, mu_s), Viscous(gamma), SmoothedCoulomb(mu, eps) or Contensou(mu, radius)
+    times : array (n,)
+        in (R/g)^1/2, not decreasing
+    rtol : float
+        1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy. While a top turns over,
+        in 900 (R/g)^1/2, C_J changes by about 4 rtol C_J. Creep (implicit.py): 5e-9 at least
+    landing : str
+        "plastic": a top that leaves the table flies and lands without a bounce. "stop": the motion ends when it
+        lifts off
+    edge : array or None
+        (radius, height above O along axis 3, rounding or 0) in R of the edge of the stem's end, as in Shape.edge;
+        None for a whole sphere. If theta at the start is beyond the angle at which the edge touches, the top starts
+        on the edge
+    rolling_resistance : float
+        delta in R, a torque -delta F_z omega_h/|omega_h| against the horizontal part of omega (smoothed below 1e-3
+        (g/R)^1/2)
+    air_drag : float
+        k in MR^2 (g/R)^1/2, a torque -k omega. Both add to heat
+    progress : callable or None
+        called now and then with the fraction of the time that is done; an exception that it raises stops the run
+        and is passed on
+    profile : array (k, 2) or None
+        radius and height above O in R of the whole body, as from Shape.profile: the motion ends where a part of it
+        other than the ball and the edge is below the table at one of the times
 
-    landing: with "plastic" a top that leaves the table flies and lands without a bounce. With "stop" the Trajectory
-    ends when it lifts off, at the last of the times before. In the impact friction follows its own law, with the normal
-    impulse in place of the normal force (impact.py): a law with static friction stops the slip if mu_s is large enough,
-    viscous friction reduces it. The same holds for impacts of the stem, with either landing. edge: (radius, height
-    above O along axis 3, rounding or 0) in R of the edge of the stem's end, as in Shape.edge; None for a whole sphere.
-    If theta at the start is beyond the angle at which the edge touches, the top starts on the edge. rolling_resistance:
-    delta in R, a torque -delta F_z omega_h/|omega_h| against the horizontal part of omega (smoothed below 1e-3
-    (g/R)^1/2). air_drag: k in MR^2 (g/R)^1/2, a torque -k omega. Both add to heat. progress: is called now and then
-    with the fraction of the time that is done; an exception that it raises stops the run and is passed on. profile:
-    (k, 2), radius and height above O in R of the whole body, as from Shape.profile: the motion ends where a part of it
-    other than the ball and the edge is below the table at one of the times.
+    Returns
+    -------
+    Trajectory
+        regime "slip", or "roll" while friction makes the top roll; with Coulomb's law, and without rolling
+        resistance or air drag, the parts that roll on the sphere are the exact motion of rolling.py
 
-    events: (time, name), located to 1e-9. "sticks" and "slips" (laws with static friction; "slips" also when the slip
-    passes through 0 and reverses without a halt); "lifts off" and "lands", or "lands on its
-    stem"; "stem touches" or "ball touches" (while the other carries), "stem leaves", "stands on its stem" (the ball has
-    left the table), "falls back on its ball". If there is a series of ever smaller bounces between the two, rtol
-    determines how many are listed. These events end the Trajectory early, without a sample at the event:
-    "lifts off" if landing is to stop it;
-    "another part touches" if there is a profile, and at one of the times a point of it is more than 1e-3 R below the
-    table;
-    "rim touches" if the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball
-    without a stem), because what follows is not computed;
-    "stands upright" if it is on its stem within 1e-3 rad of flat, without enough energy to tip over the rim of the
-    stem's end (standing.py); otherwise the motion continues over the rim, with "rocks over" when the end comes down
-    flat, which is an impact; "Painleve's limit" if no normal force balances the friction, or several do (contacts.py);
-    "too many events" after 10,000 of them, for example if friction chatters at its limit or the top keeps hopping; "too
-    many turns" after as many steps as take about half a minute. A top that leaves the table at once gives a single
-    sample in the air, or flies from the start; its first event is "lifts off". regime: "slip", or "roll" while friction
-    makes the top roll; with Coulomb's law, and without rolling resistance or air drag, the parts that roll on the
-    sphere are the exact motion of rolling.py. heat: the energy lost by friction, rolling resistance, air drag and
-    impacts. supports: what carries the top, and from when on. Raises TopError for bad input, and if the friction is so
-    strong that no normal force balances it on the ball (Painleve's paradox).
+    Raises
+    ------
+    TopError
+        for bad input, and if the friction is so strong that no normal force balances it on the ball (Painleve's
+        paradox)
+
+    Notes
+    -----
+    In an impact friction follows its own law, with the normal impulse in place of the normal force (impact.py): a law
+    with static friction stops the slip if mu_s is large enough, viscous friction reduces it.
+
+    events are located to 1e-9. "sticks" and "slips" (laws with static friction; "slips" also when the slip passes
+    through 0 and reverses without a halt); "lifts off" and "lands", or "lands on its stem"; "stem touches" or "ball
+    touches" (while the other carries), "stem leaves", "stands on its stem" (the ball has left the table), "falls back
+    on its ball"; "rocks over" when the flat end of the stem comes down, which is an impact. If there is a series of
+    ever smaller bounces between the two, rtol determines how many are listed. A top that leaves the table at once gives
+    a single sample in the air, or flies from the start; its first event is "lifts off".
+
+    These events end the Trajectory early, without a sample at the event: "lifts off" if landing is to stop it; "another
+    part touches" if there is a profile, and at one of the times a point of it is more than 1e-3 R below the table; "rim
+    touches" if the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball without
+    a stem), because what follows is not computed; "stands upright" if it is on its stem within 1e-3 rad of flat,
+    without enough energy to tip over the rim of the stem's end (standing.py); "Painleve's limit" if no normal force
+    balances the friction, or several do (contacts.py); "too many events" after 10,000 of them, for example if friction
+    chatters at its limit or the top keeps hopping; "too many steps" after as many as take about half a minute.
     """
     single("top", top, Top)
     single("state", state, State)
@@ -96,39 +120,6 @@ def slide(
     return moved if first == len(moved) else moved.until(max(first, 1), float(moved.t[first]), ANOTHER_TOUCHES)
 
 
-def sensitivity(
-    top: Top, state: State, friction: Friction, times: ArrayLike, nudge: float = 1e-6, **how: Number
-) -> float:
-    """How much a small change of the initial theta (nudge, rad) grows: the largest change of theta divided by nudge.
-
-    The other arguments are those of slide(). The result is large where the motion itself is sensitive, whatever the
-    tolerance: near the limits of sticking and of lift-off, or near a threshold spin. If the nudge changes the events,
-    only its effect on theta counts.
-    """
-    nudge = checked_nudge(nudge)
-    moved, near = (slide(top, start, friction, times, **how) for start in (state, beside(state, nudge)))
-    return growth(moved, near, nudge)
-
-
-def checked_nudge(nudge: float) -> float:
-    """nudge, or a TopError if it is out of range."""
-    if finite("nudge", nudge) == 0:
-        raise TopError("nudge", nudge, "nudge != 0")
-    return float(nudge)
-
-
-def beside(state: State, nudge: float) -> State:
-    """The State with theta larger by nudge (rad), or smaller if theta is 1 rad or more."""
-    return replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
-
-
-def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
-    """The largest factor by which the difference nudge (rad) between the starts of two Trajectories grows, over the
-    times that both have."""
-    both = min(len(moved.t), len(near.t))
-    return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / abs(nudge))
-
-
 def _moved(
     top: Top, state: State, friction: Friction, P: Record, times: Array, flies: bool, progress: Progress
 ) -> Trajectory:
@@ -143,7 +134,7 @@ def _moved(
     elif first == 0 and state.z is None:
         events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
     if goes_on and (first or flies or state.z is not None):
-        _follow(top, W, P, log, times, rows, flies, progress)
+        _fill_rows(top, W, P, log, times, rows, flies, progress)
     notes = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] == events.NOTES]
     entries = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] != events.NOTES]
     if not W.samples:
@@ -164,19 +155,29 @@ def _moved(
     return Trajectory(top=top, events=said, notes=noted, supports=tuple(supports), **parts)
 
 
-def _follow(
+def _fill_rows(
     top: Top, W: Record, P: Record, log: Array, times: Array, rows: Array, flies: bool, progress: Progress
 ) -> None:
     """Computes the rows at the times; progress is told which fraction of the time is done."""
     begins, ends, status = times[0], times[-1], MORE
-    while status in (MORE, ROLLS):
-        status = run(W, P, log, times, rows, ends, flies, P.delta == P.drag == 0.0, EACH if progress else MOST_STEPS)
-        if progress and status in (MORE, ROLLS):
+    while status in (MORE, HANDS_OVER):
+        status = run(
+            W,
+            P,
+            log,
+            times,
+            rows,
+            ends,
+            flies,
+            P.delta == P.drag == 0.0,
+            STEPS_BETWEEN_CALLS if progress else MOST_STEPS,
+        )
+        if progress and status in (MORE, HANDS_OVER):
             progress(float(min(1.0, (W.y[at.TIME] - begins) / (ends - begins))) if ends > begins else 1.0)
-        if status == ROLLS and _roll(top, W, P, log, times, rows, flies):
+        if status == HANDS_OVER and _roll(top, W, P, log, times, rows, flies):
             return
         if status == MORE and W.steps >= MOST_STEPS:
-            events.logged(W, log, events.TOO_MANY_TURNS, *W.modes)
+            events.logged(W, log, events.TOO_MANY_STEPS, *W.modes)
             return
 
 

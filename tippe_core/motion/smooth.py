@@ -29,7 +29,7 @@ from ..paper import equations as eq
 from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.search import zero
 from ..paper.top import Top, TopNumbers
-from ..paper.wells import solve
+from ..paper.wells import exact_zero
 from ..types import Array
 from .nutation import Nodes, Nutation
 from .phase import Ends, Pose, half_sigma_rate, nearer_pole, theta_dot, v_and_m
@@ -37,14 +37,29 @@ from .trajectory import Trajectory, checked_times
 
 
 def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
-    """The Trajectory of the motion on a smooth plane at the given times. Exact to rounding error for any length of
-    time.
+    """The motion on a smooth plane at the given times. Exact to rounding error for any length of time.
 
-    state: the State at times[0]; x, y, vx, vy None mean that G is at the origin, at rest.
-    times: (n,) in (R/g)^1/2, not decreasing. If the top leaves the table the Trajectory ends, with the event
-    (time, "lifts off"), because the flight is not computed.
-    Raises TopError for bad input, and very close to motions that take infinitely long to leave an unstable steady
-    precession.
+    If the top leaves the table the Trajectory ends, with the event (time, "lifts off"), because the flight is not
+    computed.
+
+    Parameters
+    ----------
+    top : Top
+        the top
+    state : State
+        at times[0]; x, y, vx, vy None mean that G is at the origin, at rest
+    times : array (n,)
+        in (R/g)^1/2, not decreasing
+
+    Returns
+    -------
+    Trajectory
+        at the times, up to a lift-off
+
+    Raises
+    ------
+    TopError
+        for bad input, and very close to motions that take infinitely long to leave an unstable steady precession
     """
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
@@ -56,11 +71,32 @@ def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
 
 
 class Gliding(Nutation):
-    """The motion on the smooth plane as an object; arguments as in glide().
+    """The motion on the smooth plane as an object; arguments as in glide(), without the times.
 
-    period, turning_points, phi_advance, psi_advance and theta(times) as in Rolling. lift_off: the time from the start
-    to F_z = 0, in (R/g)^1/2; inf if that never happens. Calling the object with times gives the Trajectory beyond
-    lift_off too, as if the table could pull.
+    theta(t) as in Rolling. Calling the object with times gives the Trajectory beyond lift_off too, as if the table
+    could pull.
+
+    Parameters
+    ----------
+    top : Top
+        the top
+    state : State
+        as in glide()
+
+    Attributes
+    ----------
+    period, turning_points, phi_advance, psi_advance
+        as in Rolling
+    lift_off : float
+        the time from the start to F_z = 0, in (R/g)^1/2; inf if that never happens
+    L_z, L_3, E : float
+        the constants: the components of the angular momentum about G along z and axis 3, M (gR^3)^1/2; the energy
+        without the horizontal motion of G, MgR
+
+    Raises
+    ------
+    TopError
+        as glide()
     """
 
     def __init__(self, top: Top, state: State) -> None:
@@ -79,10 +115,10 @@ class Gliding(Nutation):
             self._place = float(max(inner - here, Decimal(0))) ** 0.5, float(max(here - outer, Decimal(0))) ** 0.5
             self._Q_outer = float(e + L3 * L3 / t.I1 - 2 * t.a * (1 - inner - 2 * outer))
             self._B_slope = float(L3 / t.I1)
-            self.E = float(e + L3 * w3) / 2
+            self.E, self.L_z, self.L_3 = float(e + L3 * w3) / 2, float(L_z), float(L3)
 
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
-        return dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.ends)
+        return gliding_dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.ends)
 
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
         return self._dt_dkappa(*v_and_m(cos_half, sin_half, self.ends))  # nothing cancels in Q
@@ -93,11 +129,13 @@ class Gliding(Nutation):
                         code="start-not-resolved")  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.ends)
+        return gliding_sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.ends)
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
-        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.ends)
+        return gliding_omega(
+            cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.ends
+        )
 
     @cached_property
     def lift_off(self) -> float:
@@ -105,7 +143,7 @@ class Gliding(Nutation):
 
         def F_z(t: Array) -> Array:
             moved, _ = self._pose(self._phases(np.append(0.0, t)), 0.0, 0.0)
-            return normal_force(moved.v, moved.m, self._omega(moved), self.top.numbers)[1:]
+            return gliding_normal_force(moved.v, moved.m, self._omega(moved), self.top.numbers)[1:]
 
         return first_below(F_z, self.period)
 
@@ -125,15 +163,15 @@ class Gliding(Nutation):
             top=top, t=t, theta=moved.theta, phi=moved.phi, psi=moved.psi, quaternion=moved.quaternion,
             contact=np.stack([contact.real, contact.imag], axis=1),
             com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1), omega=omega, slip=np.stack(slip, axis=1),
-            force=np.stack([none, none, normal_force(v, m, omega, top.numbers)], axis=1),
-            regime=np.full(len(t), "slip"))  # fmt: skip
+            force=np.stack([none, none, gliding_normal_force(v, m, omega, top.numbers)], axis=1),
+            regime=np.full(len(t), "slip"), notes=self._notes(t))  # fmt: skip
 
 
 # ---- the loops over nodes and times ----
 
 
 @compiled
-def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, ends: Ends) -> Array:
+def gliding_dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, ends: Ends) -> Array:
     """[(I1 + a^2 s^2)/Q]^1/2 (n,) at v = 1 - c, m = 1 + c, (n,), from Q at the outer turning point."""
     found = np.empty(len(v))
     for i in range(len(v)):
@@ -146,7 +184,7 @@ def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, ends: Ends) -
 
 
 @compiled
-def omega(
+def gliding_omega(
     cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends
 ) -> Array:
     """(n, 3): omega about 1', 2', 3. B = d + v I3 w3/I1 = d - m I3 w3/I1, each with the d of its own pole."""
@@ -161,7 +199,7 @@ def omega(
 
 
 @compiled
-def sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends) -> Array:
+def gliding_sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends) -> Array:
     """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
     rates = np.empty((2, len(v)))
     for i in range(len(v)):
@@ -171,7 +209,7 @@ def sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float,
 
 
 @compiled
-def normal_force(v: Array, m: Array, omega: Array, top: TopNumbers) -> Array:
+def gliding_normal_force(v: Array, m: Array, omega: Array, top: TopNumbers) -> Array:
     """F_z (n,) = {I1 + a [I1 c (w1^2 + w2^2) - I3 w3 s w2]}/(I1 + a^2 s^2)"""
     a, I1, I3 = top.a, top.I1, top.I3
     F_z = np.empty(len(v))
@@ -194,8 +232,8 @@ def turning_cosines(
 
     one = Decimal(1)
     if not still:
-        inner = one if P(one)[0] == 0 and e > 0 else solve(P, here, one, False)
-        outer = -one if P(-one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)
+        inner = one if P(one)[0] == 0 and e > 0 else exact_zero(P, here, one, False)
+        outer = -one if P(-one)[0] == 0 and e > 4 * t.a else exact_zero(P, -one, here, True)
         return inner, outer
     slope = P(here)[1]
     if slope == 0 or (abs(here) == 1 and slope * here > 0):

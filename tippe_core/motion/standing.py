@@ -65,7 +65,7 @@ def lies(top: Number, edge: Rim, e: Vector, w: Vector) -> bool:
 @compiled
 def crossed(y: Array, e: Vector) -> Array:
     """y leaning equally far to the other side, with G at the same height."""
-    return turned(y, -e[1], e[0], -e[2])  # rotated by 2 alpha about z cross e
+    return rotated(y, -e[1], e[0], -e[2])  # rotated by 2 alpha about z cross e
 
 
 @compiled
@@ -81,11 +81,11 @@ def leaned(y: Array, e: Vector, w: Vector) -> Array:
     if np.hypot(wx, wy) <= ROUNDING * np.sqrt(wx * wx + wy * wy + w[2] * w[2]):
         wx, wy = (-y[at.VY], y[at.VX]) if np.hypot(y[at.VX], y[at.VY]) > ROUNDING else (1.0, 0.0)
     moves = np.hypot(wx, wy)
-    return turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
+    return rotated(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
 
 
 @compiled
-def turned(y: Array, i: float, j: float, w: float) -> Array:
+def rotated(y: Array, i: float, j: float, w: float) -> Array:
     """y rotated by the quaternion (i, j, 0, w)."""
     px, py, pz, pw = y[at.PX], y[at.PY], y[at.PZ], y[at.PW]
     y = y.copy()

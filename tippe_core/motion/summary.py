@@ -8,13 +8,13 @@ from ..types import Array
 from . import at
 from .dynamics import carried, kinetic, turning
 from .events import NOTED, PASSES_90, noted, noted_values, touched
-from .poses import tilt
+from .poses import tilt_of
 from .records import BALL, OPEN, STEM, STICK, Record
 from .stepper import at_end, at_share, densely, when, within
 
 
 @compiled
-def energy(W: Record, P: Record) -> float:
+def energy_at(W: Record, P: Record) -> float:
     return kinetic(W.y, turning(W.y, P)[2], P) + W.y[at.Z]
 
 
@@ -93,7 +93,7 @@ def up_rate(y: Array, P: Record) -> float:
 @compiled
 def widen(T: Record, y: Array) -> None:
     """Extends the range of tilts by that of y."""
-    theta = tilt(y)
+    theta = tilt_of(y)
     T.least, T.most = min(T.least, theta), max(T.most, theta)
 
 

@@ -16,11 +16,23 @@ from ..types import Array, Bools, Indices
 # SUNK (R): so far below the table a point of the body counts as in it; rounding and a coarse rtol sink less.
 SUNK = 1e-3
 ANGLES = 1024  # for which lowest() looks at a profile at once
-ANOTHER_TOUCHES = "another part touches"
+ANOTHER_TOUCHES, PASSES_90 = "another part touches", "theta passes 90 degrees"
 
 
 class Ledger(NamedTuple):
-    """The parts of the energy, in MgR, (n,) each: see Trajectory.ledger."""
+    """The parts of the energy, whose sum is constant: see Trajectory.ledger.
+
+    Attributes
+    ----------
+    spin, precession, nutation : array (n,)
+        I3 w3^2/2, I1 w2^2/2, I1 w1^2/2, in MgR
+    height : array (n,)
+        of G, relative to upright
+    translation : array (n,)
+        v^2/2 of G
+    heat : array (n,)
+        what is lost
+    """
 
     spin: Array
     precession: Array
@@ -37,30 +49,52 @@ class Ledger(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """A motion of a top at n instants, in units of R, M and g.
-
-    t (n,): the times. theta, phi, psi (n,): Euler angles in rad, phi the azimuth of 1', continuous in time except for
-    the half turns at a pole. quaternion (n, 4): x, y, z, w, from body to space, = Rz(phi) Rx(theta) Rz(psi). contact
-    (n, 2), com (n, 3): the contact point and G in space, with z upwards from the table. omega (n, 3): about 1', 2', 3.
-    slip (n, 2): the velocity of the point of the top that touches the table, and force (n, 3): the force on the top
-    there, both in the rotating axes x (along 1'), y (z cross 1'), z. regime (n,): "roll", "slip" or "air". events: a
-    tuple of (time, name). velocity (n, 3): of G, in the same axes; by default omega x r + slip, for contact at the
-    sphere. heat (n,), in MgR: the energy lost since t[0] by friction, rolling resistance, air drag and impacts,
-    integrated along with the motion; 0 by default. supports: a tuple of (time, name), where name, "ball", "stem",
-    "both" or "none", is what carries the top from that time on. The first is at t[0], the others at each change,
-    located like events. By default the ball alone. notes: a tuple of (time, name) of what slide()
-    notes without an effect on the motion, located within its steps: "theta passes 90 degrees", "the stem touches
-    first". time_90: the time of the first "theta passes 90 degrees", nan if there is none.
-
-    If the stem touches, contact, slip and force are those of the loaded contact. If both are loaded, the force is the
-    sum, and contact and slip are means weighted by the normal forces. In the air slip and force are 0, and contact is
-    the point of the table below O.
+    """A motion of a top at n instants, in units of R, M and g. All arrays are read-only.
 
     len() is n; a slice, or an array of bool or of indices, gives the Trajectory of these instants; at(t) is the State
     at one time.
 
-    jellett, routh, energy, L_3, L_z (n,) and ledger are computed from these arrays, not from the initial values. All
-    arrays are read-only.
+    Attributes
+    ----------
+    t : array (n,)
+        the times, (R/g)^1/2
+    theta, phi, psi : array (n,)
+        Euler angles in rad, phi the azimuth of 1', continuous in time except for the half turns at a pole
+    quaternion : array (n, 4)
+        x, y, z, w, from body to space, = Rz(phi) Rx(theta) Rz(psi)
+    contact, com : array (n, 2), (n, 3)
+        the contact point and G in space, R, with z upwards from the table
+    omega : array (n, 3)
+        about 1', 2', 3, (g/R)^1/2
+    slip : array (n, 2)
+        the velocity, (gR)^1/2, of the point of the top that touches the table, in the rotating axes x (along 1'), y
+        (z cross 1')
+    force : array (n, 3)
+        the force on the top there, Mg, in the axes x, y, z
+    regime : array of str (n,)
+        "roll", "slip" or "air"
+    events : tuple of (time, name)
+        what changed the motion
+    velocity : array (n, 3)
+        of G, in the same axes; by default omega x r + slip, for contact at the sphere
+    heat : array (n,)
+        the energy lost since t[0] by friction, rolling resistance, air drag and impacts, MgR, integrated along with
+        the motion; 0 by default
+    supports : tuple of (time, name)
+        what carries the top from that time on, "ball", "stem", "both" or "none": the first at t[0], the others at
+        each change, located like events; by default the ball alone
+    notes : tuple of (time, name)
+        what changes nothing: "theta passes 90 degrees", "the stem touches first"
+    time_90 : float
+        the time of the first "theta passes 90 degrees", nan if there is none
+
+    Notes
+    -----
+    If the stem touches, contact, slip and force are those of the loaded contact. If both are loaded, the force is the
+    sum, and contact and slip are means weighted by the normal forces. In the air slip and force are 0, and contact is
+    the point of the table below O.
+
+    jellett, routh, energy, L_3, L_z (n,) and ledger are computed from the arrays above, not from the initial values.
     """
 
     top: Top
@@ -132,7 +166,7 @@ class Trajectory:
     @property
     def time_90(self) -> float:
         """When theta first passes 90 degrees; nan if it never does."""
-        return next((t for t, name in self.notes if name == "theta passes 90 degrees"), np.nan)
+        return next((t for t, name in self.notes if name == PASSES_90), np.nan)
 
     @cached_property
     def jellett(self) -> Array:
@@ -187,9 +221,19 @@ def checked_times(times: ArrayLike) -> Array:
 
 
 def lowest(profile: Array, theta: Array) -> Array:
-    """Height (n,) above O, in R, of the lowest point of the body at the tilts theta (n,), rad.
+    """Height above O of the lowest point of a body at the tilts theta.
 
-    profile: (k, 2), radius and height above O in R, as from Shape.profile.
+    Parameters
+    ----------
+    profile : array (k, 2)
+        radius and height above O in R, as from Shape.profile
+    theta : array (n,)
+        tilts in rad
+
+    Returns
+    -------
+    array (n,)
+        in R
     """
     radius, z = profile.T[:, :, None]
     parts = np.array_split(theta, len(theta) // ANGLES + 1)  # so that a long motion needs no more memory

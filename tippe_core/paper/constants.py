@@ -32,9 +32,19 @@ def _exact(top: TopNumbers) -> TopNumbers:
 
 @dataclass(frozen=True, eq=False)
 class Constants:
-    """K_J (30), K_R (31) and the energy E (6), in units of R, M and g: numbers, or arrays that broadcast together.
+    """The constants of a rolling motion: K_J (30), K_R (31) and the energy E (6).
 
-    Raises TopError where one is not finite.
+    Parameters
+    ----------
+    K_J, K_R : float or array
+        in (g/R)^1/2 and (MgR)^1/2
+    E : float or array
+        in MgR; all three broadcast together
+
+    Raises
+    ------
+    TopError
+        where one is not finite
     """
 
     K_J: Scalars
@@ -82,17 +92,29 @@ class Constants:
 class State:
     """The state of a motion at one instant, in units of R, M and g.
 
-    theta, phi, psi are the Euler angles in rad, theta in [0, pi]. theta_dot, omega2 (about 2') and omega3 (about 3) are
-    in (g/R)^1/2. x, y is the horizontal position of G in space (R), and vx, vy its horizontal velocity, in (gR)^1/2,
-    along the axes x, y that turn with phi.
+    Where many motions are meant (slide_many), the fields may be arrays that broadcast; they are then checked where they
+    are used.
 
-    z and vz are the height of G above the table and its vertical velocity, for a start in flight of slide() or
-    slide_many(); None: on the table. The other functions do not know flights.
+    Parameters
+    ----------
+    theta, phi, psi : float
+        Euler angles in rad, theta in [0, pi]
+    theta_dot, omega2, omega3 : float
+        angular velocities about 1', 2' and 3, in (g/R)^1/2
+    x, y : float or None
+        horizontal position of G in space, R; None: each function makes its own choice (rolling: the contact point
+        starts at the origin)
+    vx, vy : float or None
+        horizontal velocity of G, in (gR)^1/2, along the axes x, y that turn with phi; None: likewise (rolling: that
+        of rolling)
+    z, vz : float or None
+        height of G above the table, R, and its vertical velocity, (gR)^1/2, for a start in flight of slide() or
+        slide_many(); None: on the table. The other functions do not know flights
 
-    x, y, vx, vy may be None; each function then makes its own choice (rolling: the contact point starts at the origin,
-    and the velocity is that of rolling). Raises TopError if a value is not finite or exceeds 1e12, or if theta is not
-    in [0, pi]. Where many motions are meant (slide_many), the fields may be arrays that broadcast; they are then
-    checked where they are used.
+    Raises
+    ------
+    TopError
+        if a value is not finite or exceeds 1e12, or if theta is not in [0, pi]
     """
 
     theta: float

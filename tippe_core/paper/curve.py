@@ -21,7 +21,20 @@ def f1_squared(theta: float, top: Top) -> float: ...
 @overload
 def f1_squared(theta: Array, top: Top) -> Array: ...
 def f1_squared(theta: Scalars, top: Top) -> Scalars:
-    """f1^2 = I1 + 1 + a^2 - 2 a cos(theta), (35). theta in rad, any shape."""
+    """f1^2 = I1 + 1 + a^2 - 2 a cos(theta), (35).
+
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad, any shape
+    top : Top
+        the top
+
+    Returns
+    -------
+    float or array
+        in MR^2, of that shape
+    """
     return eq.f1_2(np.cos(theta), top)
 
 
@@ -30,7 +43,20 @@ def f2_squared(theta: float, top: Top) -> float: ...
 @overload
 def f2_squared(theta: Array, top: Top) -> Array: ...
 def f2_squared(theta: Scalars, top: Top) -> Scalars:
-    """f2^2 = I1 + (I1/I3) sin(theta)^2 + (cos(theta) - a)^2, (34). theta in rad, any shape."""
+    """f2^2 = I1 + (I1/I3) sin(theta)^2 + (cos(theta) - a)^2, (34).
+
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad, any shape
+    top : Top
+        the top
+
+    Returns
+    -------
+    float or array
+        in MR^2, of that shape
+    """
     return eq.f2_2(np.cos(theta), np.sin(theta) ** 2, top)
 
 
@@ -39,7 +65,20 @@ def f3_squared(theta: float, top: Top) -> float: ...
 @overload
 def f3_squared(theta: Array, top: Top) -> Array: ...
 def f3_squared(theta: Scalars, top: Top) -> Scalars:
-    """f3^2 = I3 + sin(theta)^2 + (I3/I1)(cos(theta) - a)^2, (32). theta in rad, any shape."""
+    """f3^2 = I3 + sin(theta)^2 + (I3/I1)(cos(theta) - a)^2, (32).
+
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad, any shape
+    top : Top
+        the top
+
+    Returns
+    -------
+    float or array
+        in MR^2, of that shape
+    """
     return eq.f3_2(np.cos(theta), np.sin(theta) ** 2, top)
 
 
@@ -48,7 +87,27 @@ def omega3(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def omega3(theta: Array, top: Top, constants: Constants) -> Array: ...
 def omega3(theta: Scalars, top: Top, constants: Constants) -> Scalars:
-    """omega_3 = K_R/f3, (31), in (g/R)^1/2. theta in rad; theta and the constants broadcast."""
+    """omega_3 = K_R/f3, (31).
+
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad; broadcasts
+    top : Top
+        the top
+    constants : Constants
+        K_J, K_R and E; they broadcast with theta
+
+    Returns
+    -------
+    float or array
+        in (g/R)^1/2
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
     return eq.omega3(np.cos(theta), np.sin(theta) ** 2, constants.K_R, top)
 
 
@@ -57,9 +116,26 @@ def omega2(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def omega2(theta: Array, top: Top, constants: Constants) -> Array: ...
 def omega2(theta: Scalars, top: Top, constants: Constants) -> Scalars:
-    """omega_2' = [K_J - (I3/I1)(c - a) K_R/f3]/s, (30), in (g/R)^1/2. theta in rad; theta and the constants broadcast.
+    """omega_2' = [K_J - (I3/I1)(c - a) K_R/f3]/s, (30).
 
-    At a pole it is infinite, or 0 if the bracket vanishes there (K_J at P).
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad; broadcasts
+    top : Top
+        the top
+    constants : Constants
+        K_J, K_R and E; they broadcast with theta
+
+    Returns
+    -------
+    float or array
+        in (g/R)^1/2. At a pole it is infinite, or 0 if the bracket vanishes there (K_J at P)
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     offsets = pole_offsets(top, constants.K_J, constants.K_R)
     rows = np.broadcast_arrays(*versines(theta), constants.K_R, *offsets)
@@ -84,10 +160,27 @@ def f(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def f(theta: Array, top: Top, constants: Constants) -> Array: ...
 def f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
-    """theta_dot^2 = f(theta), (36), in g/R; negative where no motion is possible.
+    """theta_dot^2 = f(theta), (36); negative where no motion is possible.
 
-    theta in rad; theta and the constants broadcast. -inf at a pole that no motion with this K_J can reach. Near its
-    zeros, where the terms of (36) cancel, it is computed in Decimals, point by point.
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad; broadcasts
+    top : Top
+        the top
+    constants : Constants
+        K_J, K_R and E; they broadcast with theta
+
+    Returns
+    -------
+    float or array
+        in g/R. -inf at a pole that no motion with this K_J can reach. Near its zeros, where the terms of (36)
+        cancel, it is computed in Decimals, point by point
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     value, cancelled = floats(theta, top, constants)
     if cancelled.size:

@@ -24,9 +24,26 @@ def normal_force(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def normal_force(theta: Array, top: Top, constants: Constants) -> Array: ...
 def normal_force(theta: Scalars, top: Top, constants: Constants) -> Scalars:
-    """F_z = 1 + a (s f'/2 + c f), (37), in Mg. theta in rad; theta and the constants broadcast.
+    """F_z = 1 + a (s f'/2 + c f), (37).
 
-    nan at a pole that no motion with this K_J can reach.
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad; broadcasts
+    top : Top
+        the top
+    constants : Constants
+        K_J, K_R and E; they broadcast with theta
+
+    Returns
+    -------
+    float or array
+        in Mg; nan at a pole that no motion with this K_J can reach
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     return forces_on_curve(theta, top, constants, f(theta, top, constants))[2]
 
@@ -36,9 +53,25 @@ def friction_force(theta: float, top: Top, constants: Constants) -> tuple[Scalar
 @overload
 def friction_force(theta: Array, top: Top, constants: Constants) -> tuple[Array, Array]: ...
 def friction_force(theta: Scalars, top: Top, constants: Constants) -> tuple[Scalars, Scalars]:
-    """(F_x, F_y) for theta_dot > 0, (38) and (39), in Mg; F_x changes sign with theta_dot.
+    """(F_x, F_y) for theta_dot > 0, (38) and (39); F_x changes sign with theta_dot.
 
-    x along 1' (the line of nodes), y along z cross 1'. theta in rad; theta and the constants broadcast. F_x is nan
-    where f < 0.
+    Parameters
+    ----------
+    theta : float or array
+        tilt in rad; broadcasts
+    top : Top
+        the top
+    constants : Constants
+        K_J, K_R and E; they broadcast with theta
+
+    Returns
+    -------
+    tuple of two: float or array
+        in Mg: F_x along 1' (the line of nodes), nan where f < 0, and F_y along z cross 1'
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     return forces_on_curve(theta, top, constants, f(theta, top, constants))[:2]

@@ -89,7 +89,7 @@ def F_z_at(x: float, side: float, e: float, curve: Floats) -> float:
 
 
 @shared_with_kernels
-def place(distance: float, toward: float) -> tuple[float, float]:
+def point_from_pole(distance: float, toward: float) -> tuple[float, float]:
     """x and side of the point at this distance in theta from the pole cos(theta) = toward."""
     if distance <= np.pi / 2:
         return 2 * np.sin(distance / 2) ** 2, toward
@@ -103,7 +103,7 @@ def seen(path: Array, k: int, side: float) -> float:
 
 
 @shared_with_kernels
-def add(
+def add_point(
     path: Array, k: int, distance: float, x: float, side: float, barrier: float, curve: Floats, limit: Limit
 ) -> None:
     path[k, DISTANCE], path[k, X], path[k, SIDE] = distance, x, side
@@ -123,8 +123,8 @@ def scan(path: Array, toward: float, far: float, points: int, curve: Floats, lim
             if distance == 0 and through:
                 break
             distance = max(3 * path[k - 1, DISTANCE] - 2 * path[k - 2, DISTANCE], path[k - 1, DISTANCE] / 10)
-        x, side = place(distance, toward)
-        add(path, k, distance, x, side, path[k - 1, BASE], curve, limit)
+        x, side = point_from_pole(distance, toward)
+        add_point(path, k, distance, x, side, path[k - 1, BASE], curve, limit)
         if path[k, BASE] > path[k - 1, BASE]:
             rising = True
         elif rising and k > 1:  # past a barrier: its maximum replaces the previous point
@@ -132,8 +132,8 @@ def scan(path: Array, toward: float, far: float, points: int, curve: Floats, lim
             low, high = seen(path, k - 2, side), seen(path, k, side)
             if N_near(low, side, curve) * N_near(high, side, curve) < 0:
                 top = zero(N_near, min(low, high), max(low, high), (side, curve))
-                add(path, k - 1, angle(top, side * toward), top, side, path[k - 2, BASE], curve, limit)
-                add(path, k, distance, path[k, X], path[k, SIDE], path[k - 1, BASE], curve, limit)
+                add_point(path, k - 1, angle(top, side * toward), top, side, path[k - 2, BASE], curve, limit)
+                add_point(path, k, distance, path[k, X], path[k, SIDE], path[k - 1, BASE], curve, limit)
         k = broken_between(path, k, toward, curve, limit)
         best = min(best, path[k, FIRST])
         k += 1
@@ -154,7 +154,7 @@ def broken_between(path: Array, k: int, toward: float, curve: Floats, limit: Lim
         return k
     if (x - at) * (high - at) < 0:
         k -= 1
-    add(path, k, angle(x, side * toward), x, side, path[k - 1, BASE], curve, limit)
+    add_point(path, k, angle(x, side * toward), x, side, path[k - 1, BASE], curve, limit)
     return k
 
 
@@ -170,8 +170,8 @@ def corner(path: Array, k: int, curve: Floats, limit: Limit, part: float) -> int
     else:
         x = zero(margin_at, min(low, high), max(low, high), (side, barrier, curve, limit), part)
     distance = path[k - 1, DISTANCE]
-    add(path, k - 1, distance, x + 1e-5 * (low - x), side, barrier, curve, limit)
-    add(path, k, distance, x, side, barrier, curve, limit)
+    add_point(path, k - 1, distance, x + 1e-5 * (low - x), side, barrier, curve, limit)
+    add_point(path, k, distance, x, side, barrier, curve, limit)
     path[k, FIRST] = path[k, BASE]
     return k + 1
 
@@ -202,7 +202,7 @@ def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float
 
 
 @shared_with_kernels
-def turning(path: Array, k: int, curve: Floats, e: float, part: float) -> float:
+def turning_tilt(path: Array, k: int, curve: Floats, e: float, part: float) -> float:
     """theta of the turning point of a trajectory of energy 2E' = e, on a path of k points."""
     for i in range(1, k):
         if path[i, BASE] > e:
@@ -225,7 +225,7 @@ def limit_of(
     do."""
     counts = np.ones(2, np.intp)
     for way, toward in ((0, 1.0), (1, -1.0)):
-        add(paths[way], 0, angle(x, side * toward), x, side, -np.inf, curve, limit)
+        add_point(paths[way], 0, angle(x, side * toward), x, side, -np.inf, curve, limit)
     if not paths[0, 0, MARGIN] >= -1e-12:
         return np.nan, np.nan, np.nan, np.nan, np.nan
     for closer in range(12):
@@ -243,7 +243,7 @@ def limit_of(
     e, x, side = dips(paths, counts, curve, limit, part)
     if e == np.inf:
         return e, 0.0, np.pi, np.nan, np.nan
-    inner, outer = turning(paths[0], counts[0], curve, e, part), turning(paths[1], counts[1], curve, e, part)
+    inner, outer = turning_tilt(paths[0], counts[0], curve, e, part), turning_tilt(paths[1], counts[1], curve, e, part)
     return e, inner, outer, angle(x, side), F_z_at(x, side, e, curve)
 
 
@@ -251,7 +251,7 @@ def limit_of(
 
 
 @shared_with_kernels
-def lowest(V: Array, M: Array, curve: Floats, part: float) -> tuple[float, float, bool]:
+def least_U(V: Array, M: Array, curve: Floats, part: float) -> tuple[float, float, bool]:
     """(x, side) of the minimum of U, found on the grid 1 - c = V, 1 + c = M from theta = 0 to pi, and whether it is
     certain."""
     n = len(V) - 1
@@ -280,11 +280,11 @@ def lowest(V: Array, M: Array, curve: Floats, part: float) -> tuple[float, float
 
 
 @compiled
-def lowest_of(V: Array, M: Array, top: TopNumbers, K_R: float, offsets: Array) -> Array:
-    """Rows of x, side and certainty from lowest(), one for each row of offsets."""
+def least_U_of(V: Array, M: Array, top: TopNumbers, K_R: float, offsets: Array) -> Array:
+    """Rows of x, side and certainty from least_U(), one for each row of offsets."""
     found = np.empty((len(offsets), 3))
     for i in range(len(offsets)):
-        x, side, sure = lowest(V, M, Floats(top, K_R, offsets[i, 0], offsets[i, 1]), 1e-8)
+        x, side, sure = least_U(V, M, Floats(top, K_R, offsets[i, 0], offsets[i, 1]), 1e-8)
         found[i, 0], found[i, 1], found[i, 2] = x, side, sure
     return found
 

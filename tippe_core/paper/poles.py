@@ -87,8 +87,25 @@ def pole_constants(top: Top, K_R: Array) -> tuple[Array, Array]: ...
 def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
     """(K_J at P, K_J at the inverted pole): the values for which the bracket of (36) vanishes at theta = 0 and at pi.
 
-    K_J(P) = (I3/I1)(1 - a) K_R/f3(0). Only trajectories with these K_J pass through the poles. K_R of any shape; for a
-    single number the results are the nearest floats, and every function here takes those as exactly the poles' K_J.
+    K_J(P) = (I3/I1)(1 - a) K_R/f3(0). Only trajectories with these K_J pass through the poles.
+
+    Parameters
+    ----------
+    top : Top
+        the top
+    K_R : float or array
+        (31), in (MgR)^1/2, of any shape
+
+    Returns
+    -------
+    tuple of two: float or array
+        in (g/R)^1/2; for a single number the nearest floats, which every function here takes as exactly the poles'
+        K_J
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
     if np.ndim(K_R):
         K_R = numbers("K_R", K_R)

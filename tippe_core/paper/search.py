@@ -12,21 +12,21 @@ Arguments: TypeAlias = tuple[Any, ...]  # further arguments of the function, aft
 
 @shared_with_kernels
 def zero(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-8) -> float:
-    """The zero of function(x, *args) between low and high, as in bracket(). A last linear interpolation squares the
+    """The zero of function(x, *args) between low and high, as in enclose(). A last linear interpolation squares the
     relative error `part`."""
-    x, y, opposite, y_opposite = bracket(function, low, high, args, part)
+    x, y, opposite, y_opposite = enclose(function, low, high, args, part)
     return x + y / (y - y_opposite) * (opposite - x) if y != y_opposite else x
 
 
 @shared_with_kernels
 def fallen(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-14) -> float:
-    """Where function(x, *args) has just ceased to be positive between low, where it is, and high, as in bracket()."""
-    x, y, opposite, _ = bracket(function, low, high, args, part)
+    """Where function(x, *args) has just ceased to be positive between low, where it is, and high, as in enclose()."""
+    x, y, opposite, _ = enclose(function, low, high, args, part)
     return opposite if y > 0 else x
 
 
 @shared_with_kernels
-def bracket(
+def enclose(
     function: Callable[..., float], low: float, high: float, args: Arguments, part: float
 ) -> tuple[float, float, float, float]:
     """(x, y, opposite, y_opposite): two points close to a zero of function(x, *args) between low and high,

@@ -19,13 +19,23 @@ class TopNumbers(NamedTuple):
 class Top:
     """A symmetric top with a round peg (Gray and Nickel, Sec. II and Fig. 2), in units of R and M.
 
-    a   distance of the centre of mass G from the sphere's centre O, below O on axis 3 when theta = 0:
-        a > 0 tippe top, a < 0 ordinary top, a = 0 uniform ball. a < 1: G lies above the contact point.
-    I1  moment of inertia at G about any axis perpendicular to axis 3, in MR^2
-    I3  moment of inertia at G about axis 3, in MR^2; I3 <= 2 I1 for any body
+    Where many motions are meant (slide_many, thresholds), the fields may be arrays that broadcast; they are then
+    checked where they are used.
 
-    Raises TopError for anything else. Where many motions are meant (slide_many, thresholds), the fields may be arrays
-    that broadcast; they are then checked where they are used.
+    Parameters
+    ----------
+    a : float
+        distance of the centre of mass G from the sphere's centre O, below O on axis 3 when theta = 0: a > 0 tippe
+        top, a < 0 ordinary top, a = 0 uniform ball. a < 1: G lies above the contact point
+    I1 : float
+        moment of inertia at G about any axis perpendicular to axis 3, in MR^2
+    I3 : float
+        moment of inertia at G about axis 3, in MR^2; I3 <= 2 I1 for any body
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
     """
 
     a: float
@@ -64,7 +74,22 @@ class Top:
 
 @dataclass(frozen=True)
 class Scales:
-    """The scales of a real top: R in m, M in kg, g in m/s^2. Each property is one unit of Sec. VI in SI units."""
+    """The scales of a real top. Each property is one unit of Sec. VI in SI units.
+
+    Parameters
+    ----------
+    R : float
+        m
+    M : float
+        kg
+    g : float
+        m/s^2
+
+    Raises
+    ------
+    TopError
+        for anything else, with the name, the value and the allowed range
+    """
 
     R: float
     M: float

@@ -13,21 +13,14 @@ import numpy as np
 
 from ..compiled import compiled, shared_with_kernels
 from ..errors import NoMotionError, finite
-from ..types import Array, Bools
+from ..types import Array
 from . import equations as eq
-from .constants import EXACT, Constants, Exact, exact_top, nonzero, versines
+from .constants import EXACT, Exact, exact_top, nonzero, versines
 from .poles import Floats, angle, at_pole, bracket_near, exact_pole_constants
 from .search import zero
 from .top import Top
 
 ROOTS = Decimal("1e-55")  # relative error of K_J and K_R of a state, from square roots
-
-
-class SteadyPrecessions(NamedTuple):
-    """The tilts theta (k,) of steady precessions, in rad, ascending, and stable (k,): True at minima of U."""
-
-    theta: Array
-    stable: Bools
 
 
 class Well(NamedTuple):
@@ -178,7 +171,7 @@ def extrema(curve: ExactCurve) -> list[Decimal]:
         def N(c: Decimal, slopes: Iterator[Decimal] = slopes) -> tuple[Decimal, Decimal | None]:
             return curve.N(c), next(slopes, None)
 
-        zeros.append(solve(N, min(ends), max(ends), -side * slope > 0, exact_cosine(side, x)))
+        zeros.append(exact_zero(N, min(ends), max(ends), -side * slope > 0, exact_cosine(side, x)))
     return [c for c in zeros if abs(c) < 1]
 
 
@@ -186,7 +179,7 @@ def exact_cosine(side: float, x: float) -> Decimal:
     return 1 - Decimal(x) if side > 0 else Decimal(x) - 1
 
 
-def solve(
+def exact_zero(
     function: Callable[[Decimal], tuple[Decimal, Decimal | None]],
     low: Decimal, high: Decimal, rises: bool, guess: Decimal | None = None,
 ) -> Decimal:  # fmt: skip
@@ -231,18 +224,6 @@ def bisect(low: Decimal, high: Decimal) -> Decimal:
 
 
 # ---- steady precessions, wells, turning points ----
-
-
-def steady_precessions(top: Top, K_J: float, K_R: float) -> SteadyPrecessions:
-    """The SteadyPrecessions f = f' = 0 at K_J and K_R (numbers): theta in rad, ascending, and whether each is stable.
-
-    theta is in (0, pi), or 0 or pi itself if K_J is exactly that of the pole. Stable (f'' < 0) means a minimum of U.
-    """
-    with localcontext(EXACT):
-        stations = [s for s in find_stations(ExactCurve.of(top, K_J, K_R)) if s.kinetic.is_finite()]
-        return SteadyPrecessions(
-            np.array([exact_angle(s.c) for s in stations]), np.array([s.bottom for s in stations], bool)
-        )
 
 
 def exact_angle(c: Decimal) -> float:
@@ -320,18 +301,8 @@ def turning_point(curve: ExactCurve, one: Station, other: Station) -> Decimal:
             return end.c
     through_pole = any(abs(end.c) == 1 and end.kinetic.is_finite() for end in (one, other))  # there D is 0 for every e
     if through_pole:
-        return solve(curve.kinetic, low.c, high.c, high.kinetic > 0)
+        return exact_zero(curve.kinetic, low.c, high.c, high.kinetic > 0)
     side = 1.0 if low.c + high.c > 0 else -1.0
     near, far = sorted(float(1 - int(side) * end.c) for end in (low, high))
     guess = exact_cosine(side, turning_near(near, far, side, curve.floats, float(curve.exact.e)))
-    return solve(curve.D, low.c, high.c, high.kinetic > 0, guess)
-
-
-def turning_points(top: Top, constants: Constants) -> Array:
-    """The allowed intervals f >= 0: (k, 2) array of theta (rad), one row for each interval, from theta = 0 upwards.
-
-    The constants are numbers. For a steady precession both ends are equal. Raises NoMotionError if f < 0 everywhere.
-    """
-    return np.array(
-        [[exact_angle(w.inner), exact_angle(w.outer)] for w in wells(ExactCurve(top, Exact.of(constants, top)))]
-    )
+    return exact_zero(curve.D, low.c, high.c, high.kinetic > 0, guess)

@@ -32,12 +32,12 @@ from tippe_core import (
     a_from_rocking,
     ball,
     cylinder,
+    f3_squared,
     frustum,
     load_top,
     pole_constants,
     save_top,
 )
-from tippe_core.paper.curve import f3_squared
 
 # The throw of a new body: the spin near theta = 0 that the paper's top has at K_R = 10; for a tippe top also K_J at the
 # share of P that it has at K_J = 7. An ordinary top is released at a tilt, or it would not stay up.

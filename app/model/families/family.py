@@ -14,7 +14,7 @@ from tippe_core import (
     allowed_shares,
     f,
     f1_squared,
-    figures,
+    lift_off_and_slip_tielines,
     pole_constants,
 )
 from tippe_core.types import Array
@@ -44,7 +44,7 @@ def region(name: str, top: Top, K_R: float, mu_s: float, count: int = TIELINES) 
     """The Region of a top, from the tielines of tippe_core."""
     pole = pole_constants(top, K_R)[0]
     part = (np.arange(count) + 0.5) / count
-    lift, slip = figures(top, part * pole, K_R, mu_s)
+    lift, slip = lift_off_and_slip_tielines(top, part * pole, K_R, mu_s)
     share = (1 - np.cos(np.linspace(0, np.pi, POINTS))) / 2
     theta = lift.theta_inner[:, None] + (lift.theta_outer - lift.theta_inner)[:, None] * share
     limited = np.isfinite(lift.E)

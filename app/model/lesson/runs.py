@@ -18,8 +18,19 @@ from app.model.regimes import OF_CORE
 from app.model.run import Start, TableMotion, computed, motion_on, moved, start_of
 from app.model.scene import Scene
 from app.model.setup import TOYS
-from tippe_core import Constants, Contensou, Coulomb, SmoothedCoulomb, State, Top, Trajectory, omega3, roll, slide
-from tippe_core.motion.friction import Friction
+from tippe_core import (
+    Constants,
+    Contensou,
+    Coulomb,
+    Friction,
+    SmoothedCoulomb,
+    State,
+    Top,
+    Trajectory,
+    omega3,
+    roll,
+    slide,
+)
 from tippe_core.types import Array, Indices
 
 SMALL_PATCH = 1e-4  # m: of a hard toy

@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.model.scene import Scene
-from tippe_core import PRESETS, Contensou, Coulomb, Scales, SmoothedCoulomb, State, Top, TopError, Viscous
-from tippe_core.motion.friction import Friction
+from tippe_core import PRESETS, Contensou, Coulomb, Friction, Scales, SmoothedCoulomb, State, Top, TopError, Viscous
 from tippe_core.types import Array, Rim
 
 OWN = ""  # the name that stands for a body that is not one of tippe_core.PRESETS

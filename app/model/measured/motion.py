@@ -9,6 +9,7 @@ import numpy as np
 from app.model.measured.data import TRACKS, Data, Series
 from tippe_core import (
     Contensou,
+    Friction,
     Scales,
     Shape,
     SmoothedCoulomb,
@@ -20,7 +21,6 @@ from tippe_core import (
     roll,
     slide,
 )
-from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
 BODY = ("a", "I1", "I3")

@@ -14,12 +14,12 @@ from app.model.setup import TABLES, Setup, by_hand
 from tippe_core import (
     Contensou,
     Coulomb,
+    Friction,
     Outcome,
     SmoothedCoulomb,
     State,
     Viscous,
 )
-from tippe_core.motion.friction import Friction
 
 SET = ("spin", "tilt", "slip", "law", "mu", "mu_s", "gamma", "eps", "patch", "landing", "stem", "seconds")
 BY = {True: "spin", False: "constants"}

@@ -42,7 +42,7 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
             motions[plane], messages[plane] = None, say("planes.run.extreme")
     return Picture(
         settings=settings, state=state, friction=settings.friction, motions=MappingProxyType(motions),
-        outcome=outcome(top, state, settings.scales), inputs=settings.inputs, messages=MappingProxyType(messages),
+        outcome=outcome(top, state), inputs=settings.inputs, messages=MappingProxyType(messages),
     )  # fmt: skip
 
 
