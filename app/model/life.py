@@ -7,10 +7,9 @@ from typing import TypeVar
 import numpy as np
 
 from app.model.motion import slid
-from app.model.setup import Setup
+from app.model.setup import SECONDS, Setup
 from tippe_core import TopError, Trajectory
 
-SECONDS = 6.0  # of a run while a hand moves, and at least of any other
 LIFE = 60.0  # s, at most
 AFTER = 2.0  # s that are still shown of a motion that goes on for ever
 NEAR, FAR = (0.5, 0.01), (1.0, 0.02)  # largest rotation (rad) and time (s) between two rows: up to SECONDS, and after
