@@ -181,7 +181,7 @@ def test_what_another_thread_throws_away_is_found_whole_or_not_at_all(monkeypatc
     found = ends.ends_of(start_of(TOY, 0.0, TILT, 0.77))
     with ThreadPoolExecutor(1) as threads:
         assert ends.known_ends(start_of(TOY, 0.0, TILT, 0.77)) is found
-    assert [key[2] for key in ends._kept] == [0.78]
+    assert [key.mu for key in ends._kept] == [0.78]
 
 
 @pytest.mark.slow
