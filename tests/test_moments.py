@@ -61,7 +61,7 @@ def test_what_only_rolls_or_glides_has_little_to_tell(toy):
 
 
 def test_one_event_has_one_word():
-    """Coulomb's law: that it sticks for good is that the table grips it; the ball leaves before it stands on its stem."""
+    """That it sticks for good is that the table grips it; that the ball leaves is not yet a stand on the stem."""
     caught = replace(start_of(TOY, 28.65, 5.73, 0.3), law="coulomb")
     assert [moment.word for moment in moments(on(caught, "ordinary"))] == ["let go", "is gripped and rolls"]
     for law in ("contact", "smoothed"):
