@@ -34,7 +34,7 @@ def within(start: T) -> T:
 def lived(start: Setup, look: Callable[[], Callable[[float], object]]) -> tuple[float, Trajectory]:
     """How long a start is to be shown, s, and its Trajectory until then, thinned. look(): the progress of a slide()."""
     time = start.scales.time
-    for wanted in (2 * SECONDS, LIFE):  # most have come to their end in the first
+    for wanted in (2 * SECONDS, 4 * SECONDS, LIFE):  # most have come to their end in the first
         seconds = within(replace(start, seconds=wanted)).seconds
         times = replace(start, seconds=seconds).times
         moved = slid(start, start.state, times, look())

@@ -49,11 +49,20 @@ class Patience:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Watched(Motion):
-    """A Motion of a Setup on a table, one of the names in TABLES."""
+class TableMotion(Motion):
+    """A Motion of a start on a table, one of the names in TABLES. lost: the energy (MgR) that the grip of the rough
+    table has taken; it is part of the heat. whole: whether it goes to the end of the toy's life.
+
+    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
+    (mm), the heat so far in the same way, the spin about the top's own axis and its rotation seen from above (rev/s),
+    and the code of regimes.py.
+    """
 
     start: Setup
     table: str
+    lost: float
+    whole: bool
+    curves: Array
 
     @property
     def seconds(self) -> Array:
@@ -118,21 +127,6 @@ class Watched(Motion):
         rolls = float(np.nan_to_num(self.rolls_since, nan=np.inf))
         return phases(samples(self.trajectory, self.start.scales.time, self.start.turns, tuple(self.cuts.values()),
                               0.0 if self.table == "ice" else rolls))  # fmt: skip
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class TableMotion(Watched):
-    """A Watched motion of the Lab. lost: the energy (MgR) that the grip of the rough table has taken; it is part of the
-    heat.
-
-    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
-    (mm), the heat so far in the same way, the spin about the top's own axis and its rotation seen from above (rev/s),
-    and the code of regimes.py.
-    """
-
-    lost: float
-    whole: bool
-    curves: Array
 
     @property
     def is_cut(self) -> bool:
