@@ -298,7 +298,7 @@ def typed():
         names.link(vote=code), names.link(vote=code, lang="de"), "?vote=not-a-class",
         "?v=2&tab=lab&spin=30", "?v=2&tab=lab&spin=30&mu_k=-1", "?v=2&tab=lab&lang=de&tilt=steep", "?v=2&KJ=many&mu=.3",
         "?v=2&body=Nonsense_1&KJ=6.6", "?v=2&I3=9&a=.2", "?v=2&tab=learn&step=free", "?v=2&tab=nowhere&KJ=6.6",
-        "?v=2&tab=maps&map=spin_1_2", "?v=2&tab=measure&film=eJw", "?v=2&lang=fr&KJ=6.6", "?v=3&KJ=6.7&mu=.4",
+        "?v=2&tab=maps&map=spin_1_2", "?v=2&tab=measure&film=eJw", "?v=2&lang=fr&KJ=6.6", "?v=4&KJ=6.7&mu=.4",
         "?v=2&tab=three-planes&by=hand&spin=20&tilt=200", "?v=2&KJ=-6.7&KR=-10",
     ]  # fmt: skip
 

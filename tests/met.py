@@ -141,11 +141,11 @@ def opens(link):
             "language": text.spoken(), "room": room, "level": owners["Rooms"].level, "table": start.table,
             "body": json.loads(save_top(start.shape)), "mass": start.scene.scales.M,
             "top": {name: getattr(start, name) for name in ("a", "I1", "I3")},
-            "start": start_of(start), "friction": friction_of(start, room),
+            "start": start_of(start), "friction": friction_of(start),
             "run": {"seconds": start.seconds, "landing": start.landing, "stem": start.stem},
             "figures": {"part": str(start.upper), "limit": start.limit},
             "look": {name: bool(getattr(owners["Look"], name)) for name in ("dark", "large")},
-            "playing": playing_of(owners), "said": " ".join(filter(None, said)), "written so": keep.query == link,
+            "playing": playing_of(owners), "said": " ".join(filter(None, said)),
             "open": {name: of_view(owners[name]) for name, of_view in OF_VIEWS.items() if name in owners},
             "motion": motion_of(start, room),
         }  # fmt: skip
@@ -184,14 +184,10 @@ def start_of(start):
     return {"given": start.given} | {name: getattr(start, name) for name in (*names, *hand)}
 
 
-def law_of(start, room):
-    """The friction of the ordinary table: the toy always has a real contact."""
-    return "contact" if room == "lab" else start.law
-
-
-def friction_of(start, room):
-    law = law_of(start, room)
-    return {"law": law} | {name: getattr(start, name) for name in ("mu_s", *OF_LAW[law])}
+def friction_of(start):
+    """Of the ordinary table."""
+    numbers = {name: getattr(start, name) for name in OF_LAW[start.law]}
+    return {"law": start.law} | numbers | {"mu_s": start.static}
 
 
 def playing_of(owners):
@@ -243,8 +239,8 @@ def motion_of(start, room):
     state = start.let_go
     edge = start.shape.edge if start.stem and start.scene.shape is not None else None
     friction = {"contact": lambda: Contensou(start.mu, 1e-3 * start.patch / scales.R),
-                "coulomb": lambda: Coulomb(start.mu, start.mu_s), "viscous": lambda: Viscous(start.gamma),
-                "smoothed": lambda: SmoothedCoulomb(start.mu, start.eps)}[law_of(start, room)]  # fmt: skip
+                "coulomb": lambda: Coulomb(start.mu, start.static), "viscous": lambda: Viscous(start.gamma),
+                "smoothed": lambda: SmoothedCoulomb(start.mu, start.eps)}[start.law]  # fmt: skip
     seconds, landing = (5.0, "plastic") if room == "lab" else (start.seconds, start.landing)
     on = {"ordinary": lambda: slid(top, state, friction(), scales, edge, seconds, landing),
           "rough": lambda: rolled(top, state, scales), "ice": lambda: glided(top, state, scales)}  # fmt: skip

@@ -14,7 +14,6 @@ from app.model.build.verdict import Verdict, verdict
 from app.model.explorer import Explorer
 from app.model.run import TooLong
 from app.model.runs import Full, Runs, Stopped
-from app.model.setup import shape_of
 from app.tabs.build.build import KNOBS, Build
 from app.tabs.build.verdict import VerdictWords
 from tippe_core import (
@@ -240,7 +239,7 @@ def test_the_strip_is_of_the_scene_that_is_shown(monkeypatch):
     own = changed(preset.shape, "a", 0.0) if hasattr(preset.shape, "a") else PRESETS[1].shape
     told.show(SimpleNamespace(shape=preset.shape, top=preset.top))
     told.show(SimpleNamespace(shape=own, top=own.top))
-    assert asked[0][0] == preset.name and shape_of(asked[1][0]) == own
+    assert [key.shape for (key,) in asked] == [preset.shape, own] and asked[0][0].top == preset.top
 
 
 def test_a_verdict_that_nobody_computed_says_so(monkeypatch):

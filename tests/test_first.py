@@ -50,7 +50,7 @@ def test_each_language_has_its_words_and_nothing_else():
 
 def test_it_is_drawn_only_where_the_session_opens_the_same():
     for search in first.searches():
-        assert opened(read(search)[0], search) == FIRST, search
+        assert opened(read(search)[0]) == FIRST, search
 
 
 @pytest.mark.served

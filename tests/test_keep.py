@@ -115,7 +115,7 @@ def test_the_same_body_to_the_last_digit(shape):
 def test_a_link_is_short():
     explorer = Explorer()
     explorer.param.update(K_J=6.7, mu_s=0.3)
-    assert kept(explorer).query == "?v=2&mu=.3&KJ=6.7"
+    assert kept(explorer).query == "?v=3&mu=.3&KJ=6.7"
     shape = LoadedSphere(R=0.02, b=0.008, d=0.01, density=1190.0, core_density=7850.0)
     # every number with all its digits
     explorer.param.update(shape=shape, a=1 / 7, I1=1 / 3, I3=2 / 5.1, mu_s=1 / 3, K_J=7 / 3, K_R=28 / 3, energy=1 / 7)
@@ -138,7 +138,7 @@ def test_the_longest_body_fits():
     "?a=1", "?e=-1", "?mu=-1", "?by=state&th=4", "?body=" + 13_000 * "z", "&".join(f"n{i}=1" for i in range(100)),
     "?body=z" + base64.urlsafe_b64encode(zlib.compress(b"[" * 60_000)).decode(),
     "?body=z" + base64.urlsafe_b64encode(zlib.compress(bytes(50_000_000))).decode()[:LONGEST_QUERY - 100],
-    "?v=3", "?v=0&KJ=5",
+    "?v=4", "?v=0&KJ=5",
 ])  # fmt: skip
 def test_a_bad_link_gives_a_sentence_and_the_default(query):
     explorer, sentence = opened(query)
@@ -227,7 +227,7 @@ def test_what_cannot_be_is_neither_kept_nor_a_step():
 
 
 def test_a_view_made_later_gets_its_part_of_the_link():
-    texts, _ = read("?v=2&mapby=heat&mapat=3_4&KJ=6&x=%26a%3Db")
+    texts, _ = read("?v=3&mapby=heat&mapat=3_4&KJ=6&x=%26a%3Db")
     explorer, _ = explorer_of(texts)
     keep, other = kept(explorer, texts), MapChoice()
     assert opened(keep.query)[0].K_J == 6

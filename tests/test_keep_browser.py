@@ -69,7 +69,7 @@ def undo_is_one_step_a_gesture(visit):
     undo, redo = (visit.page.get_by_role("button", name=name) for name in ("Undo", "Redo"))
     visit.page.keyboard.press("Control+z")
     visit.until_column("theta", 0, "theta", before[0])
-    visit.page.wait_for_function("['?tab=roll', '?v=2&tab=roll'].includes(location.search)")
+    visit.page.wait_for_function("['?tab=roll', '?v=3&tab=roll'].includes(location.search)")
     assert np.array_equal(visit.column("theta", 0, "theta"), before)
     visit.page.wait_for_function("button => button.disabled", arg=undo.element_handle())
     redo.click()
@@ -91,7 +91,7 @@ def undo_is_one_step_a_gesture(visit):
 
 
 def test_a_link_opens_the_same_picture_elsewhere_and_undo_is_one_step_a_gesture(go, server):
-    visit = go(f"{server}?v=2&tab=roll")  # as the page itself writes it
+    visit = go(f"{server}?v=3&tab=roll")  # as the page itself writes it
     undo_is_one_step_a_gesture(visit)
     steps = visit.page.evaluate("history.length")
     slider = thumb(visit)

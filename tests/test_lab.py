@@ -10,9 +10,9 @@ from app.model.events import first_times
 from app.model.keeps import KINDS, kinds
 from app.model.lab import ends
 from app.model.lab.lab import Lab, scene_of
-from app.model.life import FAR, LIFE, SECONDS, lived
-from app.model.run import motion_on, start_of, whole_on
-from app.model.setup import TABLES, TOYS
+from app.model.life import FAR, LIFE, lived
+from app.model.run import motion_on, whole_on
+from app.model.setup import SECONDS, TABLES, TOYS, start_of
 from app.model.story import story
 from tippe_core import Contensou, State, slide, slide_many
 
@@ -63,15 +63,15 @@ def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
         assert [each[0] for each in ours] == pytest.approx([each[0] for each in theirs], abs=1e-3)
     motion_on.cache_clear()
     monkeypatch.setattr(run, "slid", None)  # nothing is computed for it
-    assert motion_on(*ARRIVAL).trajectory.theta.tolist() == kept.theta.tolist()
+    assert motion_on("ordinary", start_of(*ARRIVAL[1:])).trajectory.theta.tolist() == kept.theta.tolist()
     motion_on.cache_clear()
 
 
 def test_where_the_runs_of_its_other_spins_end_ships_too(monkeypatch):
     monkeypatch.setattr(ends, "_kept", ends.OrderedDict())
-    kept = ends.known_ends(TOY, TILT, MU)
-    assert kept.codes == ends.ends_of(TOY, TILT, MU).codes
-    assert ends.known_ends(TOY, TILT, 2 * MU) is None
+    kept = ends.known_ends(start_of(TOY, 9.0, TILT, MU))
+    assert kept.codes == ends.ends_of(start_of(TOY, 9.0, TILT, MU)).codes
+    assert ends.known_ends(start_of(TOY, 9.0, TILT, 2 * MU)) is None
 
 
 @pytest.mark.slow
@@ -96,7 +96,7 @@ def test_that_it_stands_hangs_on_no_digit(rtol):
 @pytest.mark.parametrize("table", TABLES)
 @pytest.mark.parametrize(("toy", "spin", "tilt"), [(TOY, 28.65, 5.73), (CONE, 20.0, 15.0), ("Top S", 14.0, 6.0)])
 def test_the_energy_is_that_of_a_body_in_joules(table, toy, spin, tilt):
-    motion = motion_on(table, toy, spin, tilt, 0.31)
+    motion = motion_on(table, start_of(toy, spin, tilt, 0.31))
     shape, moved = TOYS[toy].shape, motion.trajectory
     top, scales = TOYS[toy].top, shape.scales
     I1, I3 = (x * scales.M * scales.R**2 for x in (top.I1, top.I3))
@@ -118,7 +118,7 @@ def test_the_energy_is_that_of_a_body_in_joules(table, toy, spin, tilt):
 
 def test_the_curves_reach_from_start_to_end_with_a_few_hundred_rows():
     for table in TABLES:
-        motion = motion_on(table, *ARRIVAL[1:])
+        motion = motion_on(table, start_of(*ARRIVAL[1:]))
         curves, end = motion.curves, motion.start.seconds
         assert curves.dtype == np.float32 and 600 <= len(curves) <= 1500 and curves.shape[1] == 8
         assert curves[0, 0] == 0 and curves[-1, 0] == pytest.approx(end) and (np.diff(curves[:, 0]) > 0).all()
@@ -131,7 +131,7 @@ def test_the_curves_reach_from_start_to_end_with_a_few_hundred_rows():
 @pytest.mark.parametrize("spin", [22.0, 28.65, 38.2])  # 38.2: 240 rad/s
 def test_a_life_goes_on_until_it_rolls_and_ends_leaning_with_no_spin_about_the_vertical(spin):
     """As with elastic contacts: at about 65 degrees, near 12 rad/s about its own axis."""
-    motion = whole_on("ordinary", TOY, spin, TILT, MU)
+    motion = whole_on("ordinary", start_of(TOY, spin, TILT, MU))
     moved, found = motion.trajectory, codes(motion)
     assert motion.whole and list(found)[-1] == "rolls"
     assert set(moved.regime[motion.seconds > found["rolls"]]) == {"roll"}
@@ -160,15 +160,18 @@ def test_its_rows_are_fewer_and_the_motion_is_that_of_all_of_them():
 
 
 def test_what_would_go_on_for_longer_than_can_be_shown_ends_when_it_must():
-    motion = whole_on("ordinary", "Disc on a peg", 50.0, 6.0, 0.3)
+    motion = whole_on("ordinary", start_of("Disc on a peg", 50.0, 6.0, 0.3))
     assert SECONDS < motion.start.seconds < LIFE and len(motion.t) <= 6001 and motion.whole
 
 
 def test_all_three_are_seen_for_as_long():
-    scene = scene_of("three", TOY, 22.0, TILT, MU, whole=True)
+    scene = scene_of("three", start_of(TOY, 22.0, TILT, MU), whole=True)
     ends = {motion.curves[-1, 0] for motion in scene.motions.values()}
     assert len(ends) == 1 and ends.pop() > 9 and scene.whole
-    assert not scene_of("three", TOY, 22.0, TILT, MU).whole and scene_of("ice", TOY, 22.0, TILT, MU).whole
+    assert (
+        not scene_of("three", start_of(TOY, 22.0, TILT, MU)).whole
+        and scene_of("ice", start_of(TOY, 22.0, TILT, MU)).whole
+    )
 
 
 def test_a_hand_that_rests_sees_the_rest(lab):
@@ -181,13 +184,13 @@ def test_a_hand_that_rests_sees_the_rest(lab):
 
 
 def test_the_rough_table_grips_and_tells_what_that_takes():
-    rough, ordinary = (motion_on(table, *ARRIVAL[1:]) for table in ("rough", "ordinary"))
+    rough, ordinary = (motion_on(table, start_of(*ARRIVAL[1:])) for table in ("rough", "ordinary"))
     assert ordinary.curves[0, 3] == pytest.approx(205, abs=0.5) and rough.curves[0, 3] == pytest.approx(203, abs=0.5)
     assert rough.curves[0, 4] == pytest.approx(ordinary.curves[0, 3] - rough.curves[0, 3], rel=1e-4)
     assert "gripped it: 1.8 of 205 mm" in story(rough).stages[0].why
     assert rough.trajectory.jellett[0] == pytest.approx(ordinary.trajectory.jellett[0], rel=1e-7)
     assert story(rough).caption == "Between 1° and 6°"
-    assert story(motion_on("ice", *ARRIVAL[1:])).caption == "Nods by a tenth of a degree"
+    assert story(motion_on("ice", start_of(*ARRIVAL[1:]))).caption == "Nods by a tenth of a degree"
 
 
 def kept_at(scene, table, t):
@@ -199,7 +202,7 @@ def kept_at(scene, table, t):
 
 def test_while_it_turns_over_only_jelletts_constant_is_nearly_kept():
     """Counted to the moment that is shown; on its stem it loses that too. What is kept is what the trajectory says."""
-    scene = scene_of("three", *ARRIVAL[1:], whole=True)
+    scene = scene_of("three", start_of(*ARRIVAL[1:]), whole=True)
     motion = scene.motions["ordinary"]
     jellett = motion.trajectory.jellett / motion.start.top.I1
     assert [kind for kind, *_ in kept_at(scene, "ordinary", 0.0)] == ["kept"] * 4
@@ -229,7 +232,7 @@ def test_how_far_a_quantity_is_kept_does_not_wait_for_its_end():
 
 
 def test_what_each_keeps_is_what_its_trajectory_does():
-    scene = scene_of("three", *ARRIVAL[1:])
+    scene = scene_of("three", start_of(*ARRIVAL[1:]))
     said = {table: kept_at(scene, table, np.inf) for table in scene.keeps}
     assert [kind for kind, *_ in said["ordinary"]] == ["lost", "lost", "zero", "zero"]
     assert [kind for kind, *_ in said["rough"]] == ["gripped", "kept", "gripped", "nearly"]

@@ -8,12 +8,13 @@ import pytest
 from app.model import life
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
 from app.model.events import first_times
+from app.model.lab import ends
 from app.model.lab.allowed import LIMITS
 from app.model.lab.ends import SPINS, Ends
 from app.model.lab.lab import Lab
 from app.model.run import whole_on
 from app.model.runs import Runs
-from app.model.setup import PATCH, TOYS
+from app.model.setup import TOYS, start_of
 from app.model.story import story
 from tippe_core import Contensou
 
@@ -77,28 +78,28 @@ def test_a_link_of_what_nobody_can_show_leaves_all_as_it_was(lab, name, value):
 def test_what_research_has_set_is_kept_and_shown_also_past_what_a_hand_can_set_here(lab, name, value):
     assert not LIMITS[name][0] <= value <= LIMITS[name][1]
     lab.start.param.update(**{name: value})
-    assert getattr(lab.start, name) == getattr(lab.scene, name) == value and not lab.scene.messages
+    assert getattr(lab.start, name) == getattr(lab.scene.start, name) == value and not lab.scene.messages
     motion, spins = lab.scene.motions["ordinary"], TOYS[TOY].shape.scales.angular_velocity / (2 * np.pi)
     assert motion.trajectory.omega[0, 2] * spins == pytest.approx(lab.start.spin)
     assert motion.curves[-1, 0] > 0.05 and not lab.scene.refused
     lab.ask(tilt=8.0)  # and everything else is unchanged
-    assert getattr(lab.scene, name) == value
+    assert getattr(lab.scene.start, name) == value
 
 
 def test_the_patch_is_the_tables(lab):
     lab.ask(patch=0.15)
     assert lab.scene.motions["ordinary"].start.friction == Contensou(0.3, 0.01)
     # of a smaller patch the toy stands longer: physics by another body, 4.50 s and 10.38 s
-    falls = first_times(whole_on("ordinary", *ARRIVAL[1:], None, 0.15))["falls"]
+    falls = first_times(whole_on("ordinary", start_of(*ARRIVAL[1:], None, 0.15)))["falls"]
     assert falls == pytest.approx(10.38, abs=0.05)
 
 
 def test_a_life_that_is_longer_than_what_is_computed_says_so(monkeypatch):
-    whole = whole_on("ordinary", *ARRIVAL[1:])
+    whole = whole_on("ordinary", start_of(*ARRIVAL[1:]))
     assert not whole.is_cut and "computed only up to" not in story(whole).stages[-1].why
     monkeypatch.setattr(life, "MOST_ROWS", 300)
     whole_on.cache_clear()
-    cut = whole_on("ordinary", TOY, 30.0, TILT, MU)
+    cut = whole_on("ordinary", start_of(TOY, 30.0, TILT, MU))
     whole_on.cache_clear()
     assert cut.is_cut and len(cut.trajectory.t) == 300
     assert story(cut).stages[-1].why.endswith(
@@ -111,9 +112,9 @@ def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):
     assert lab.nearest == {"tilt": 90.0} and "90° or less" in lab.scene.messages["tilt"]
     assert (lab.scene.toy, lab.start.tilt) == ("Disc on a peg", TILT)
     lab.ask(tilt=80.0)
-    assert lab.scene.tilt == 80 and not lab.scene.messages
+    assert lab.scene.start.tilt == 80 and not lab.scene.messages
     lab.ask(tilt=120.0)
-    assert lab.scene.messages and lab.inputs == (ARRIVAL[0], "Disc on a peg", SPIN, 80.0, 0.3, None, PATCH)
+    assert lab.scene.messages and lab.inputs == (ARRIVAL[0], start_of("Disc on a peg", SPIN, 80.0, 0.3))
 
 
 def test_a_table_on_which_it_cannot_begin_says_so_in_its_place(lab):
@@ -136,13 +137,13 @@ def test_beside_the_server_the_newest_is_computed_and_one_event_tells_it():
     lab = Lab(Runs(posted.put))
     lab.show()  # the stored run is there at once
     assert lab.scene.toy == TOY and posted.empty()
-    lab.param.watch(lambda event: scenes.append(event.new.spin), "scene")
+    lab.param.watch(lambda event: scenes.append(event.new.start.spin), "scene")
     for spin in (20.0, 21.0, 22.0):
         lab.ask(spin=spin)
-    assert lab.busy and lab.scene.spin == SPIN
+    assert lab.busy and lab.scene.start.spin == SPIN
     while lab.busy:
         posted.get(timeout=60)()
-    assert scenes == [20.0, 22.0] and lab.scene.spin == 22
+    assert scenes == [20.0, 22.0] and lab.scene.start.spin == 22
 
 
 def test_an_older_run_never_takes_the_place_of_the_arrival_that_was_asked_for_since():
@@ -153,14 +154,14 @@ def test_an_older_run_never_takes_the_place_of_the_arrival_that_was_asked_for_si
         lab.ask(spin=spin)
     while lab.busy:
         posted.get(timeout=60)()
-    assert lab.scene.spin == lab.start.spin == SPIN
+    assert lab.scene.start.spin == lab.start.spin == SPIN
 
 
 def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
     asked = []
     found = Ends(SPINS, ("leans",) * len(SPINS), "stem")
-    monkeypatch.setattr("app.model.lab.lab.ends_once", lambda *key, look: asked.append(key) or found)
-    monkeypatch.setattr("app.model.lab.lab.known_ends", lambda *key: found if key in asked else None)
+    monkeypatch.setattr("app.model.lab.lab.ends_once", lambda key, look: asked.append(key) or found)
+    monkeypatch.setattr("app.model.lab.lab.known_ends", lambda key: found if key in asked else None)
     for _ in range(2):
         lab = Lab()
         lab.show()
@@ -172,4 +173,4 @@ def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
         assert lab.ends is found  # of all spins
         lab.ask(mu=0.6)
         assert lab.ends is None
-    assert asked == [(TOY, TILT, 0.5, PATCH)]
+    assert asked == [ends.of_spins(start_of(TOY, 0.0, TILT, 0.5))]

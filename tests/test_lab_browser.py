@@ -9,7 +9,7 @@ from lab_page import TIME, TOPS, UNIT, arrival, come, entry, line, put
 from playwright.sync_api import expect
 from visiting import is_seen
 
-from app.model.run import start_of
+from app.model.setup import start_of
 from tippe_core import Constants, grip
 
 pytestmark = pytest.mark.served
@@ -37,7 +37,7 @@ def test_it_flips_with_nothing_clicked_another_table_keeps_the_start_and_a_link_
         put(page, "Tilt, in degrees", 12)
         page.wait_for_function("location.search.includes('table=ice') && location.search.includes('tilt=12')")
         asked = parse_qs(urlsplit(page.url).query)
-        assert asked == {"v": ["2"], "tab": ["lab"], "table": ["ice"], "spin": ["28.8"], "tilt": ["12"]}
+        assert asked == {"v": ["3"], "table": ["ice"], "spin": ["28.8"], "tilt": ["12"]}
         with chromium.new_context(viewport=page.viewport_size, reduced_motion="reduce") as elsewhere:
             other = come(elsewhere.new_page(), page.url).page
             other.locator(".lab[data-table=ice]").wait_for()

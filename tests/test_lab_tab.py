@@ -135,7 +135,7 @@ def test_what_a_page_never_sends_changes_nothing(tab, asked):
 
 def test_a_slider_has_the_start_of_the_arrival_within_it():
     for name, (low, high, step, _) in SLIDERS.items():
-        assert low < getattr(Start(**arrives()), name) < high and step < high - low
+        assert low < getattr(Start(**arrives()).setup, name) < high and step < high - low
 
 
 def test_numbers_are_written_as_the_language_writes_them():

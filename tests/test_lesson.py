@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from app.model.explorer import Explorer
 from app.model.lesson import lesson, runs
 from app.model.lesson.parts import Choice
-from app.model.run import start_of
+from app.model.setup import start_of
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, SmoothedCoulomb, Top, pole_constants, slide
 

@@ -1,5 +1,6 @@
 """The list of what happened in a run of the three planes is read from the run, and can be seen and clicked."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,11 +10,15 @@ from house import planes_of
 from app.model.explorer import Explorer
 from app.model.planes.moments import MOST, moments
 from app.model.planes.planes import Planes
+from app.model.run import on
+from app.model.setup import start_of
 from app.model.start import arrives
 from app.tabs.planes.three_planes import ThreePlanes
 from app.text import speaking
 from app.widgets.cards import card
 from app.widgets.near import WhenNear
+
+TOY = "Leine and Glocker's toy"
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +58,19 @@ def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
 def test_what_only_rolls_or_glides_has_little_to_tell(toy):
     assert [moment.word for plane in ("rough", "ice") for moment in told(toy, plane)] == ["let go", "let go"]
     assert moments(None) == ()
+
+
+def test_one_event_has_one_word():
+    """That it sticks for good is that the table grips it; that the ball leaves is not yet a stand on the stem."""
+    caught = replace(start_of(TOY, 28.65, 5.73, 0.3), law="coulomb")
+    assert [moment.word for moment in moments(on(caught, "ordinary"))] == ["let go", "is gripped and rolls"]
+    for law in ("contact", "smoothed"):
+        words = [moment.word for moment in moments(on(replace(caught, law=law), "ordinary"))]
+        assert sum("stands on its" in word for word in words) == 1 and any(
+            "its stem carries it" in word for word in words
+        )
+    slow = replace(start_of("Wooden cone", 5.0, 20.0, 0.3), law="coulomb")  # it sticks and slips before
+    assert [moment.word for moment in moments(on(slow, "ordinary"))].count("it sticks") == 1
 
 
 def test_a_stem_that_chatters_is_told_in_few_lines():

@@ -24,9 +24,9 @@ from app.bundle import Bundled
 from app.model.build.builder import Builder
 from app.model.explorer import Explorer
 from app.model.planes import run
-from app.model.planes.picture import Settings
 from app.model.playing import Playing
 from app.model.scene import Scene, solve
+from app.model.setup import Setup
 from app.share.share import Share
 from app.state.keep import Keep
 from app.tabs.build.build import Build
@@ -66,8 +66,8 @@ TOPS = ("The paper's tippe top", "Leine and Glocker's toy", "Wooden cone")
 @cache
 def pictured(name):
     scene = stored(name)
-    return run.solve(Settings(
-        top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=None, spin=15.0,
+    return run.solve(Setup(
+        top=scene.top, scales=scene.scales, shape=scene.shape, spin=15.0,
         tilt=12.0, slip=1.0, law="coulomb", mu=0.2, mu_s=0.3, gamma=0.3, eps=0.1, landing="plastic",
         stem=True, seconds=0.3))  # fmt: skip
 

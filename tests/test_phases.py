@@ -12,7 +12,7 @@ from app.model import tell
 from app.model.ends import NAMES
 from app.model.phases import KINDS, Samples, comes_back, phases
 from app.model.run import TooLong, motion_on, whole_on
-from app.model.setup import TOYS
+from app.model.setup import TOYS, start_of
 from app.model.story import story
 from app.text import LANGUAGES, listed
 from tippe_core import TopError
@@ -123,7 +123,7 @@ def test_the_words_of_many_runs_are_rows_of_the_judges_kinds():
     for _ in range(30):
         toy, spin, tilt = random.choice([*TOYS]), random.uniform(0, 50), random.uniform(0, random.choice([60, 170]))
         try:
-            motion = motion_on("ordinary", str(toy), spin, tilt, 0.02 * 40 ** random.random())
+            motion = motion_on("ordinary", start_of(str(toy), spin, tilt, 0.02 * 40 ** random.random()))
         except (TopError, TooLong):
             continue
         if motion.ended_at is None:
@@ -135,12 +135,12 @@ def test_the_words_of_many_runs_are_rows_of_the_judges_kinds():
 
 
 def test_slides_and_nods_are_little_of_the_arrival():
-    found = motion_on("ordinary", TOY, 28.65, 5.73, 0.3).phases
+    found = motion_on("ordinary", start_of(TOY, 28.65, 5.73, 0.3)).phases
     assert sum(phase.end - phase.start for phase in found if phase.kind in ("slides", "nods")) < 0.2 * found[-1].end
 
 
 def test_a_cone_that_stands_up_for_half_a_minute_is_not_said_to_sink():
-    motion = whole_on("ordinary", CONE, 41.6, 44.5, 0.3)
+    motion = whole_on("ordinary", start_of(CONE, 41.6, 44.5, 0.3))
     assert [phase.kind for phase in motion.phases][:3] == ["rises", "stands-upright", "falls"]
     told = story(motion).stages
     assert told[0].headline == "Rubbing sets it upright." and "27 turns a second hold it there" in told[1].why
@@ -167,7 +167,7 @@ def test_a_cone_that_stands_up_for_half_a_minute_is_not_said_to_sink():
     ],
 )
 def test_what_was_falsely_said(start, says, never):
-    told = story((whole_on if start[0] == "ordinary" else motion_on)(*start))
+    told = story((whole_on if start[0] == "ordinary" else motion_on)(start[0], start_of(*start[1:])))
     words = " ".join(" ".join(stage[1:]) for stage in told.stages)
     assert says in words and not re.search(never, f"{words} {told.caption}")
 
@@ -175,7 +175,7 @@ def test_what_was_falsely_said(start, says, never):
 @pytest.mark.slow
 def test_a_top_that_hangs_does_not_fall_and_its_life_is_computed():
     """It was given up after 8 s, because the work of all the lengths that are tried was counted together."""
-    words = str(story(whole_on("ordinary", S, -40.9, 136.6, 1.0, None, 0.01)).stages)
+    words = str(story(whole_on("ordinary", start_of(S, -40.9, 136.6, 1.0, None, 0.01))).stages)
     assert "166° and 170°" in words and "It falls" not in words
 
 

@@ -76,7 +76,10 @@ def three_tops_side_by_side_go_by_one_clock(page, first):
     bead = page.evaluate(COLUMN, ["planes-well", "E"])[0]
     assert bead == pytest.approx([first.motions["ordinary"].trajectory.energy[index]], abs=1e-4)
     table = page.locator("table").first.inner_text()
-    assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
+    assert (
+        len(re.findall(r"stays to \d·10", table)) == 8
+        and "to 2.57 s, where its ball leaves, and its stem carries it" in table
+    )
 
 
 def a_bad_value_is_said_and_nothing_is_lost(page):

@@ -74,7 +74,7 @@ def test_the_balls_verdict_is_of_the_ball_alone_and_void_from_the_stems_touch(us
     said = re.sub(r"<[^>]*>", "", ball_words(picture))
     moved, (t, ball, _) = picture.motions["ordinary"].trajectory, heights(picture)
     first, J = t[ball > 1e-7][0], moved.jellett
-    assert said.startswith("What friction would do to its ball alone, without a stem, if it went on slipping: ")
+    assert said.startswith("By the energy VJ of its ball alone, without a stem, and not by a run, ")
     assert f"no longer holds from {first:.2f} s on" in said and f"by {100 * np.ptp(J) / np.abs(J).max():.3g} %" in said
     assert "in this run it has not" in ball_words(ran(usual, spin=5.0)[0])
     thrown = ran(usual, spin=32.0, landing="stop", seconds=2.2)[0]

@@ -104,10 +104,10 @@ def the_tour(page, width):
 
 def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_changes_the_language(chromium, server):
     page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
-    Visit(page, f"{server}?lang=de", near=True)
+    Visit(page, f"{server}?lang=de&tab=roll", near=True)
     assert page.evaluate("document.documentElement.lang") == "de"
     page.get_by_role("slider", name="Jellett-Konstante").press("ArrowLeft")
-    page.wait_for_url("**?v=2&KJ=6.99&t=0&lang=de")
+    page.wait_for_url("**?v=3&KJ=6.99&t=0&lang=de&tab=roll")
     inertia = page.get_by_label("Trägheitsmoment um die Achse, in M R Quadrat")
     inertia.fill("2")
     inertia.press("Enter")
@@ -136,6 +136,6 @@ def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_chang
     page.get_by_role("button", name="Mehr").click()
     page.get_by_role("radio", name="English").click()
     page.wait_for_function("document.documentElement.lang == 'en' && window.__tippe?.top3d?.pictures > 0")
-    assert page.url.endswith("?v=2&KJ=6.99&t=0&lang=en")
+    assert page.url.endswith("?v=3&KJ=6.99&t=0&lang=en&tab=roll")
     assert page.get_by_role("slider", name="Jellett’s constant").input_value() == "6.99"
     page.close()

@@ -186,7 +186,7 @@ def test_the_nearest_friction_is_the_largest_that_is_possible():
 def test_whatever_ends_the_first_run_ends_the_wait(result):
     planes = Planes(Explorer(given="hand"), Runs(lambda act: act()))
     planes._shown = True
-    planes._running = planes._settings()
+    planes._running = planes._start.setup
     planes._told_to_stop = isinstance(result, Stopped) and not isinstance(result, Full)
     planes._run = Run(lambda run: None, planes._done)
     try:

@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from app.model.run import motion_on, start_of, whole_on
+from app.model.run import motion_on, whole_on
+from app.model.setup import start_of
 from app.share.saved_runs import NODS, Shown, caption, drawn, run_csv, run_glb, run_npz, run_print, run_python
 from tippe_core import glide, grip, roll
 
@@ -19,7 +20,7 @@ TABLES = "ordinary", "rough", "ice"
 
 @pytest.fixture(scope="module", params=TABLES)
 def shown(request):
-    return Shown(request.param, motion_on(request.param, *START).trajectory, start_of(*START))
+    return Shown(request.param, motion_on(request.param, start_of(*START)).trajectory, start_of(*START))
 
 
 def test_the_table_has_it_in_SI(shown):
@@ -57,7 +58,7 @@ def test_the_python_computes_it_again(shown, monkeypatch, tmp_path):
 def test_the_python_of_a_whole_life_goes_to_its_end(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
-    life, found = whole_on("ordinary", "Leine and Glocker's toy", 22.0, 5.73, 0.3), {}
+    life, found = whole_on("ordinary", start_of("Leine and Glocker's toy", 22.0, 5.73, 0.3)), {}
     exec(run_python(Shown("ordinary", life.trajectory, life.start)), found)
     motion, moved = found["motion"], life.trajectory
     assert motion.t[-1] == pytest.approx(moved.t[-1], abs=1e-6)

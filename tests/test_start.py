@@ -16,9 +16,8 @@ from app.model.lab.lab import Lab
 from app.model.lesson.lesson import NAMES as STEP_NAMES
 from app.model.planes.picture import SET
 from app.model.planes.planes import Planes
-from app.model.run import start_of
 from app.model.runs import Runs
-from app.model.setup import TOYS
+from app.model.setup import LAWS, TOYS
 from app.model.start import TABLES, Start, arrives, of_toy
 from app.page import page
 from app.page.house import House
@@ -44,7 +43,6 @@ class Views:
         self.start.have(self.planes)
         self.lab.show()
         self.planes.show()
-        self.start.opened(room)
         self.go(room)
 
     def go(self, room, table=None):
@@ -83,7 +81,8 @@ def test_the_views_have_the_one_start(views):
     views.lab.ask(spin=17.0)
     assert views.explorer.spin == views.planes.inputs["spin"] == 17.0
     views.planes.ask(tilt=12.0, mu=0.2)
-    assert views.lab.inputs[2:5] == (17.0, 12.0, 0.2)
+    start = views.lab.inputs[1]
+    assert (start.spin, start.tilt, start.mu) == (17.0, 12.0, 0.2)
 
 
 # ---- a table is another one, and the start the same ----
@@ -122,8 +121,12 @@ def test_the_state_is_the_same_on_every_table(views):
 
 def test_the_planes_do_what_the_lab_does(views):
     views.go("three-planes")
-    start, settings = start_of(TOY, *views.lab.inputs[2:5]), views.planes.picture.settings
-    assert (settings.state, settings.friction) == (start.state, start.friction)
+    for law in LAWS:
+        views.planes.ask(law=law, mu=0.2)
+        start, settings = views.lab.inputs[1], views.planes.picture.settings
+        assert (settings.state, settings.friction) == (start.state, start.friction)
+        assert views.go("lab").lab.scene.motions["ordinary"].start.friction == settings.friction
+        views.go("three-planes")
 
 
 def test_the_table_goes_along(views):
@@ -154,7 +157,7 @@ def test_what_nobody_looks_at_is_not_computed(views):
     scene, picture = views.lab.scene, views.planes.picture
     views.explorer.param.update(given="hand", spin=31.0)
     assert views.lab.scene is scene and views.planes.picture is picture
-    assert views.go("lab").lab.scene.spin == 31.0 and views.planes.picture is picture
+    assert views.go("lab").lab.scene.start.spin == 31.0 and views.planes.picture is picture
 
 
 # ---- the rough table grips ----
@@ -210,7 +213,7 @@ def test_a_body_of_ones_own_goes_along(views, shape):
     views.explorer.param.update(**of_toy(shape))
     views.go("lab")
     assert views.lab.scene.toy == shape
-    assert views.lab.scene.a == shape.top.a and not views.lab.scene.messages
+    assert views.lab.scene.start.top == shape.top and not views.lab.scene.messages
 
 
 def test_inertias_that_are_no_bodys_are_a_sphere_of_these(views):

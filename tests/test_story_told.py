@@ -5,6 +5,7 @@ import story_checker
 from story_checker import BODIES, STEMLESS, faults, starts, told_by
 
 from app.model import run, tell
+from app.model.setup import start_of
 
 FALSE = [
     ("hollow", "spin=20.616&tilt=17.50&mu_k=0.070"),  # "from 15° to 15°": heights, in mm
@@ -39,7 +40,7 @@ def test_a_life_that_takes_too_long_on_the_ordinary_table_is_no_reason_elsewhere
         raise run.TooLong
 
     monkeypatch.setattr(run, "lived", endless)
-    assert run.whole_on("rough", "Wooden cone", 49.5, 20.0, 0.751).start.seconds == run.SECONDS
+    assert run.whole_on("rough", start_of("Wooden cone", 49.5, 20.0, 0.751)).start.seconds == run.SECONDS
 
 
 @pytest.mark.long

@@ -1,13 +1,13 @@
 """What happens in a motion, and when: the beginnings of its phases, and the events of its contacts."""
 
-from app.model.run import Watched
+from app.model.run import TableMotion
 
 TOLD = ("over", "stands-on-stem", "stands-upright", "stands-inverted", "falls", "tips-back", "lies")
 """The phases whose beginnings are events."""
 LEANS, AT_ONCE = 1.0, 0.05  # s: so long a lean is an event too; what is so near is one event
 
 
-def happened(motion: Watched) -> tuple[tuple[float, str], ...]:
+def happened(motion: TableMotion) -> tuple[tuple[float, str], ...]:
     """(t, code) of the events of a motion, in order: the beginnings of its phases, and those of its contacts."""
     cuts = {*motion.cuts.values()}
     goes = {} if motion.start.top.a > 0 else {"over": "goes"}  # without a heavy side below, nothing turns over
@@ -24,7 +24,7 @@ def happened(motion: Watched) -> tuple[tuple[float, str], ...]:
     return tuple(sorted(found))
 
 
-def first_times(motion: Watched) -> dict[str, float]:
+def first_times(motion: TableMotion) -> dict[str, float]:
     """{code: the time (s) at which it first happened}."""
     found: dict[str, float] = {}
     for t, code in happened(motion):

@@ -41,8 +41,8 @@ class Explorer(Start):
     def __init__(self, **inputs: object) -> None:
         super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
         self._following = self._later = self._waits = False
-        self.param.watch(self._on_inputs, [*self.FOLLOWS, "slip", "given", "mu_s", "a", "I1", "I3", "shape", "upper",
-                                           "limit"])  # fmt: skip
+        others = ("slip", "given", "mu", "mu_s", "a", "I1", "I3", "shape", "upper", "limit")
+        self.param.watch(self._on_inputs, [*self.FOLLOWS, *others])
         self._solve()
 
     def later(self, **inputs: Any) -> None:
@@ -67,6 +67,8 @@ class Explorer(Start):
         if self._following:
             return
         changed = {event.name for event in events}
+        if changed == {"mu"} and self.mu_s is not None:
+            return  # rolling depends on static friction alone
         if "given" not in changed:
             by = (("state", self.GIVEN["state"]), ("hand", self.GIVEN["hand"]), ("E", ("E",)),
                   ("share", self.GIVEN["share"]))  # fmt: skip
@@ -94,7 +96,7 @@ class Explorer(Start):
                 Top(self.a, self.I1, self.I3),
                 self.K_J,
                 self.K_R,
-                self.mu_s,
+                self.static,
                 self.energy,
                 self.upper,
                 self.limit,
@@ -107,7 +109,7 @@ class Explorer(Start):
             if self.scene is None:
                 raise
             control = {"E": "energy"}.get(error.name, error.name)
-            asked = {name: getattr(self, name) for name in self.scene.inputs}
+            asked = {name: getattr(self, name) for name in self.scene.inputs} | {"mu_s": self.static}
             self._follow(scene=replace(self.scene, inputs=MappingProxyType(asked),
                                        messages=MappingProxyType({control: told(error)})))  # fmt: skip
             return

@@ -7,10 +7,9 @@ from typing import TypeVar
 import numpy as np
 
 from app.model.motion import slid
-from app.model.setup import Setup
+from app.model.setup import SECONDS, Setup
 from tippe_core import TopError, Trajectory
 
-SECONDS = 6.0  # of a run while a hand moves, and at least of any other
 LIFE = 60.0  # s, at most
 AFTER = 2.0  # s that are still shown of a motion that goes on for ever
 NEAR, FAR = (0.5, 0.01), (1.0, 0.02)  # largest rotation (rad) and time (s) between two rows: up to SECONDS, and after
@@ -34,16 +33,14 @@ def within(start: T) -> T:
 
 def lived(start: Setup, look: Callable[[], Callable[[float], object]]) -> tuple[float, Trajectory]:
     """How long a start is to be shown, s, and its Trajectory until then, thinned. look(): the progress of a slide()."""
-    time, seconds, most = start.scales.time, 2 * SECONDS, LIFE
-    while True:
-        wanted, seconds = seconds, within(replace(start, seconds=seconds)).seconds
-        most = seconds if seconds < wanted else most
+    time = start.scales.time
+    for wanted in (2 * SECONDS, 4 * SECONDS, LIFE):  # most have come to their end in the first
+        seconds = within(replace(start, seconds=wanted)).seconds
         times = replace(start, seconds=seconds).times
         moved = slid(start, start.state, times, look())
         end = _end(moved, time, ended=len(moved.t) < len(times))
-        if end <= seconds or seconds >= most:
+        if end <= seconds or seconds < wanted:
             break
-        seconds = min(2 * seconds, most)
     found = thinned(moved, time, min(end, seconds))
     if len(found.t) > MOST_ROWS:
         found = thinned(moved, time, time * float(found.t[MOST_ROWS - 1]))

@@ -1,6 +1,6 @@
-"""The motion of one toy, released by hand, on each of the three tables, and its curves.
+"""The motion of one start on each of the three tables, and its curves.
 
-Ordinary: it slips, with the friction of a real contact. Rough: it can only roll, so the table grips it first. Ice: no
+Ordinary: it slips, with the start's law of friction. Rough: it can only roll, so the table grips it first. Ice: no
 friction at all.
 """
 
@@ -8,19 +8,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
-from app.model.bodies import body
-from app.model.life import SECONDS, lived, thinned, within
+from app.model.life import lived, thinned, within
 from app.model.motion import Motion, Progress, check_room, clear, for_reader, motion_of, slid
 from app.model.phases import Phase, carried, phases, samples
 from app.model.runs import look
-from app.model.setup import PATCH, TOYS, Setup, Toy, by_hand, shape_of
-from tippe_core import Contensou, Friction, State, TopError, Trajectory, glide, grip, roll
+from app.model.setup import SECONDS, Setup, start_of
+from app.text import say, told
+from tippe_core import TopError, Trajectory, glide, grip, roll
 from tippe_core.types import Array
 
 MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
@@ -28,7 +27,8 @@ STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a 
 STEM = "stem", "both"
 WHILE, AT_ONCE = 0.2, 1e-6  # s
 NEARLY = 1e-5  # relative: the precision of a time stored as float32
-SHIPS = *arrival.ARRIVAL, None, PATCH
+EXTREME = "extreme"  # the code of a TopError
+SHIPS = arrival.TABLE, start_of(*arrival.ARRIVAL[1:])
 
 
 class TooLong(Exception):
@@ -49,35 +49,20 @@ class Patience:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Start(Setup):
-    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees; or the State `given`."""
+class TableMotion(Motion):
+    """A Motion of a start on a table, one of the names in TABLES. lost: the energy (MgR) that the grip of the rough
+    table has taken; it is part of the heat. whole: whether it goes to the end of the toy's life.
 
-    most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast toy
-
-    toy: Toy
-    spin: float
-    tilt: float
-    mu: float
-    given: State | None = None
-    patch: float = PATCH  # mm
-
-    @property
-    def friction(self) -> Friction:
-        return Contensou(self.mu, 1e-3 * self.patch / self.scales.R)
-
-    @property
-    def state(self) -> State:
-        if self.given is not None:
-            return self.given
-        return by_hand(self.spin, self.tilt, 1.0, self.scales)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Watched(Motion):
-    """A Motion of a Setup on a table, one of the names in TABLES."""
+    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
+    (mm), the heat so far in the same way, the spin about the top's own axis and its rotation seen from above (rev/s),
+    and the code of regimes.py.
+    """
 
     start: Setup
     table: str
+    lost: float
+    whole: bool
+    curves: Array
 
     @property
     def seconds(self) -> Array:
@@ -143,21 +128,6 @@ class Watched(Motion):
         return phases(samples(self.trajectory, self.start.scales.time, self.start.turns, tuple(self.cuts.values()),
                               0.0 if self.table == "ice" else rolls))  # fmt: skip
 
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class TableMotion(Watched):
-    """A Watched motion of the Lab. lost: the energy (MgR) that the grip of the rough table has taken; it is part of the
-    heat.
-
-    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
-    (mm), the heat so far in the same way, the spin about the top's own axis and its rotation seen from above (rev/s),
-    and the code of regimes.py.
-    """
-
-    lost: float
-    whole: bool
-    curves: Array
-
     @property
     def is_cut(self) -> bool:
         """Whether the motion continues after the end of what was computed."""
@@ -165,37 +135,23 @@ class TableMotion(Watched):
         return self.whole and self.table == "ordinary" and not ended and bool(np.isnan(self.rolls_since))
 
 
-def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH) -> Start:
-    """The Start of a toy."""
-    shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
-    return Start(toy=toy, top=top, scales=shape.scales, shape=shape, profile=body(shape), landing="plastic", stem=True,
-                 seconds=SECONDS, spin=spin, tilt=tilt, mu=mu, given=given, patch=patch)  # fmt: skip
-
-
 @lru_cache(12)
-def motion_on(
-    table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH
-) -> TableMotion:
+def motion_on(table: str, start: Setup) -> TableMotion:
     """The TableMotion of a start, cached for all visitors; for the arrival, the one that ships. Raises TopError in the
     units of the controls."""
-    if (table, toy, spin, tilt, mu, given, patch) == SHIPS:
-        return whole_on(*SHIPS)
-    return on(start_of(toy, spin, tilt, mu, given, patch), table)
+    return whole_on(table, start) if (table, start) == SHIPS else on(start, table)
 
 
 @lru_cache(12)
-def whole_on(
-    table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH
-) -> TableMotion:
+def whole_on(table: str, start: Setup) -> TableMotion:
     """As motion_on(), to the end of the toy's life; on a table on which it never ends, as long as on the ordinary
     one."""
-    start = start_of(toy, spin, tilt, mu, given, patch)
-    if (table, toy, spin, tilt, mu, given, patch) == SHIPS:
+    if (table, start) == SHIPS:
         kept = arrival.read(start.top)
         return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
     if table != "ordinary":
         try:
-            seconds = whole_on("ordinary", toy, spin, tilt, mu, given, patch).start.seconds
+            seconds = whole_on("ordinary", start).start.seconds
         except (TopError, TooLong):
             seconds = SECONDS
         return on(replace(start, seconds=seconds), table)
@@ -206,8 +162,8 @@ def whole_on(
     return moved(replace(start, seconds=seconds), table, kept, 0.0, whole=True)
 
 
-def on(start: Start, table: str) -> TableMotion:
-    """The TableMotion of a Start on a table, shortened if it makes too many turns to be shown. Raises TopError in the
+def on(start: Setup, table: str) -> TableMotion:
+    """The TableMotion of a start on a table, shortened if it makes too many turns to be shown. Raises TopError in the
     units of the controls."""
     try:
         start = within(start)
@@ -217,18 +173,29 @@ def on(start: Start, table: str) -> TableMotion:
 
 
 def computed(start: Setup, table: str, progress: Progress | None = None) -> tuple[Trajectory, float]:
-    """The trajectory of a Setup on a table, and the energy (MgR) that the grip of the rough one has taken."""
-    top, state, times, lost = start.top, start.state, start.times, 0.0
+    """The trajectory of a Setup on a table, and the energy (MgR) that the grip of the rough one has taken. Raises
+    TopError."""
+    state, times, lost = start.state, start.times, 0.0
     check_room(start, state)
     if table == "ordinary":
         return slid(start, state, times, progress or Patience()), lost
-    if table == "ice":
-        return clear(partial(glide, top, state, times), start, state), lost
-    state, lost = grip(top, state)
-    return clear(partial(roll, top, None, times, state), start, state), lost
+    try:
+        if table == "ice":
+            return clear(partial(glide, start.top, state, times), start, state), lost
+        state, lost = grip(start.top, state)
+        return clear(partial(roll, start.top, None, times, state), start, state), lost
+    except TopError:
+        raise
+    except (ValueError, ArithmeticError):  # of the solvers without friction, whose squares or reciprocals overflow
+        raise TopError("state", repr(state), "one of moderate numbers", code=EXTREME) from None
 
 
-def moved(start: Start, table: str, trajectory: Trajectory, lost: float, *, whole: bool = False) -> TableMotion:
+def why_not(error: TopError) -> str:
+    """Why a start has no run on a table, in a sentence."""
+    return say("planes.run.extreme") if error.code == EXTREME else told(error)
+
+
+def moved(start: Setup, table: str, trajectory: Trajectory, lost: float, *, whole: bool = False) -> TableMotion:
     """The TableMotion of the results of computed(). whole: the trajectory is already thinned and goes to the end."""
     shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
     times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)

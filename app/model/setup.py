@@ -1,22 +1,42 @@
-"""What a run starts from: a body on the tables, and how it is let go."""
+"""What a run starts from: a body on the tables, how it is let go, and the friction of the ordinary table."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
-from app.model.bodies import outline, second_part
-from tippe_core import PRESETS, Friction, Preset, Scales, Shape, State, Top, TopError, Viscous
+from app.model.bodies import body, outline, second_part
+from tippe_core import (
+    PRESETS,
+    BareSphere,
+    Contensou,
+    Coulomb,
+    Friction,
+    Preset,
+    Scales,
+    Shape,
+    SmoothedCoulomb,
+    State,
+    Top,
+    TopError,
+    Viscous,
+)
 from tippe_core.types import Array, Rim
 
 TABLES = ("ordinary", "rough", "ice")
-LAWS = ("contact", "coulomb", "viscous", "smoothed")
+OF_LAW = MappingProxyType(
+    {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+)
+"""{friction law of the ordinary table: its numbers, by their names in a Setup}."""
+LAWS = (*OF_LAW,)
 TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
 PATCH = 0.5  # mm: the default radius of the contact patch
 
-MOST_SECONDS = 60.0
-# A frame turns the top by at most MOST_TURN rad, or FARTHEST_TURN if that would take more than MOST_FRAMES.
+SECONDS, MOST_SECONDS = 6.0, 60.0
+# A frame turns the top by at most most_turn rad (at the level "Research" MOST_TURN), or FARTHEST_TURN if that would
+# take more than MOST_FRAMES.
 MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
 LEAST_FRAMES = 600
 
@@ -26,17 +46,56 @@ Toy: TypeAlias = str | Shape
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Setup:
-    """A body on the tables, in the form that a run needs. shape: None if a, I1 and I3 are not those of the body."""
+    """One start, all that its runs depend on. Two are equal if their runs are: numbers of other laws do not count.
 
-    most_turn: ClassVar[float] = MOST_TURN
+    shape: None if a, I1 and I3 are not those of the body. Let go by a hand with spin (rev/s), tilt (degrees) and slip
+    as in by_hand(), or as the State `rolling`. law: one of OF_LAW, with its numbers: mu, mu_s, gamma and eps in R, M
+    and g, patch in mm. seconds: how long a run is; most_turn: rad from a frame to the next.
+    """
 
     top: Top
     scales: Scales
     shape: Shape | None
-    profile: Array
-    landing: str
-    stem: bool
-    seconds: float
+    spin: float
+    tilt: float
+    slip: float = 1.0
+    rolling: State | None = None
+    law: str = "contact"
+    mu: float
+    mu_s: float
+    gamma: float = 0.0
+    eps: float = 0.1
+    patch: float = PATCH
+    landing: str = "plastic"
+    stem: bool = True
+    seconds: float = SECONDS
+    most_turn: float = 0.5
+
+    @cached_property
+    def _key(self) -> tuple[object, ...]:
+        let_go = (self.spin, self.tilt, self.slip) if self.rolling is None else self.rolling
+        numbers = tuple(getattr(self, name) for name in OF_LAW[self.law])
+        return (self.top, self.scales, self.shape, let_go, self.law, numbers, self.landing, self.stem, self.seconds,
+                self.most_turn)  # fmt: skip
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Setup) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    @property
+    def toy(self) -> Toy:
+        """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3. Raises TopError if
+        no sphere has these."""
+        if self.shape is not None:
+            return toy_of(self.shape, self.top)
+        return BareSphere(R=self.scales.R, M=self.scales.M, a=self.top.a, I1=self.top.I1, I3=self.top.I3)
+
+    @cached_property
+    def profile(self) -> Array:
+        """The outline of the body, or of a stand-in for it."""
+        return outline(self.top) if self.shape is None else body(self.shape)
 
     @property
     def turns(self) -> float:
@@ -46,7 +105,14 @@ class Setup:
     @property
     def friction(self) -> Friction:
         """The friction law of the table on which it slides."""
-        raise NotImplementedError
+        match self.law:
+            case "contact":
+                return Contensou(self.mu, 1e-3 * self.patch / self.scales.R)
+            case "coulomb":
+                return Coulomb(self.mu, self.mu_s)
+            case "viscous":
+                return Viscous(self.gamma)
+        return SmoothedCoulomb(self.mu, self.eps)
 
     @property
     def is_frictionless(self) -> bool:
@@ -55,8 +121,8 @@ class Setup:
 
     @property
     def state(self) -> State:
-        """The State at t = 0."""
-        raise NotImplementedError
+        """The State at t = 0, before a table grips it."""
+        return self.rolling or by_hand(self.spin, self.tilt, self.slip, self.scales)
 
     @property
     def edge(self) -> Rim | None:
@@ -109,6 +175,15 @@ def by_hand(spin: float, tilt: float, slip: float, scales: Scales) -> State:
             raise TopError(name, value, "a finite number", code="not-finite")
     theta, omega3 = float(np.radians(tilt)), 2 * np.pi * spin / scales.angular_velocity
     return State(theta, 0.0, 0.0, omega3, vx=-(1 - slip) * omega3 * np.sin(theta), vy=0.0)
+
+
+def start_of(
+    toy: Toy, spin: float, tilt: float, mu: float, rolling: State | None = None, patch: float = PATCH
+) -> Setup:
+    """The Setup of a toy on a real contact."""
+    shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
+    return Setup(top=top, scales=shape.scales, shape=shape, spin=spin, tilt=tilt, rolling=rolling, mu=mu, mu_s=mu,
+                 patch=patch)  # fmt: skip
 
 
 def shape_of(toy: Toy) -> Shape:

@@ -13,12 +13,13 @@ import param
 
 from app.model import arrival
 from app.model.bodies import fits
-from app.model.setup import LAWS, PATCH, TOYS, Toy, by_hand, toy_of
+from app.model.setup import LAWS, MOST_TURN, OF_LAW, PATCH, TOYS, Setup, Toy, by_hand, toy_of
 from app.model.setup import TABLES as EACH
-from tippe_core import BareSphere, Shape, State, Top, TopError, TruncatedSphere
+from tippe_core import Shape, State, Top, TopError, TruncatedSphere
 from tippe_core.paper.equations import rolling_velocity
 
 TABLES = (*EACH, "three")
+NUMBERS = tuple(dict.fromkeys(name for names in OF_LAW.values() for name in names))
 
 
 class Start(param.Parameterized):
@@ -52,7 +53,9 @@ class Start(param.Parameterized):
     table: param.Selector[str] = param.Selector(
         default="ordinary", objects=list(TABLES), doc="the table on which it is watched"
     )
-    mu_s = param.Number(0.5, doc="coefficient of static friction")
+    mu_s = param.Number(
+        0.5, allow_None=True, doc="coefficient of static friction; None: the same as that of sliding friction"
+    )
     mu = param.Number(0.3, doc="coefficient of sliding friction")
     law: param.Selector[str] = param.Selector(
         default="smoothed", objects=list(LAWS), doc="the friction law of the ordinary table"
@@ -78,8 +81,8 @@ class Start(param.Parameterized):
 
     @property
     def set(self) -> dict[str, Any]:
-        """{input: value} of the top, of the way its motion is given, and of the Lab's table: enough to restore it."""
-        names = ("shape", "a", "I1", "I3", "given", *self.GIVEN[self.given], "table", "mu", "patch")
+        """{input: value} of the top, of the way its motion is given, and of the table: enough to restore it."""
+        names = ("shape", "a", "I1", "I3", "given", *self.GIVEN[self.given], "table", "law", *OF_LAW[self.law])
         return {name: getattr(self, name) for name in names}
 
     def later(self, **inputs: Any) -> None:
@@ -97,11 +100,23 @@ class Start(param.Parameterized):
     @property
     def body(self) -> Toy:
         """The same; raises TopError if no top, or no sphere, has these."""
-        top = Top(self.a, self.I1, self.I3)
-        toy = toy_of(self.shape, top)
-        if isinstance(toy, str) or fits(self.shape, top):
-            return toy
-        return BareSphere(R=self.shape.scales.R, M=self.shape.scales.M, a=top.a, I1=top.I1, I3=top.I3)
+        return self.setup.toy
+
+    @property
+    def static(self) -> float:
+        """The coefficient of static friction."""
+        return max(self.mu, 0.0) if self.mu_s is None else self.mu_s
+
+    @property
+    def setup(self) -> Setup:
+        """All that its runs depend on; raises TopError if no top has these a, I1 and I3."""
+        top, shape = Top(self.a, self.I1, self.I3), self.shape
+        names = ("spin", "tilt", "slip", "law", "mu", "gamma", "eps", "patch", "landing", "stem", "seconds")
+        return Setup(
+            top=top, scales=shape.scales, shape=shape if fits(shape, top) else None, mu_s=self.static,
+            rolling=None if self.given == "hand" else self.let_go, most_turn=MOST_TURN,
+            **{name: getattr(self, name) for name in names},
+        )  # fmt: skip
 
     @property
     def at_rest(self) -> bool:
@@ -133,5 +148,6 @@ def of_toy(toy: Toy) -> dict[str, Any]:
 def arrives() -> dict[str, Any]:
     """{input of a Start: value} of the arrival, where it differs from the default."""
     return of_toy(arrival.TOY) | {
-        "given": "hand", "spin": arrival.SPIN, "tilt": arrival.TILT, "mu": arrival.MU, "law": "contact",
+        "given": "hand", "spin": arrival.SPIN, "tilt": arrival.TILT, "mu": arrival.MU, "mu_s": None,
+        "law": "contact",
     }  # fmt: skip

@@ -13,7 +13,7 @@ import numpy as np
 from app.model.events import first_times, happened
 from app.model.phases import SIDE, SPINS, Phase
 from app.model.regimes import WOULD_LIFT
-from app.model.run import TableMotion, Watched
+from app.model.run import TableMotion
 from app.text import listed, say
 from tippe_core import thresholds
 from tippe_core.types import Array, Number
@@ -64,8 +64,13 @@ def story(motion: TableMotion) -> Story:
     return Story(events, _Told(motion).stages(), "" if motion.table == "ordinary" else _caption(motion))
 
 
-def _part(motion: Watched) -> str:
+def _part(motion: TableMotion) -> str:
     return say(f"planes.parts.{motion.start.part}")
+
+
+def _happens(motion: TableMotion) -> str:
+    """What ended a motion early."""
+    return say(f"planes.events.{motion.ended}", part=_part(motion))
 
 
 class _Told:
@@ -240,7 +245,7 @@ class _Told:
                 code = "tires"
             return [say(f"lab.next.{code}", **numbers | {"time": then.start})]
         if motion.ended_at is not None:
-            kind = "flat" if motion.ended == "stands upright" else self._stop
+            kind = "flat" if motion.ended == "stands upright" else "ends"
             return [say(f"lab.stopped.{kind}", **numbers | {"time": motion.ended_at})]
         if self._repeats(phase):
             return [say("lab.next.forever")] if not self.quiet else [say(f"lab.{self.table}.forever")]
@@ -252,12 +257,6 @@ class _Told:
     def _next(self, then: Phase) -> str:
         cuts = self.motion.cuts
         return next((code for code in ("rolls", "off") if then.start == cuts.get(code)), then.kind)
-
-    @property
-    def _stop(self) -> str:
-        if not self.quiet:
-            return "ends"
-        return "stem" if self.motion.ended == "stem touches" else "air"
 
     def _repeats(self, phase: Phase) -> bool:
         """Whether it has gone through all that a motion without losses repeats: it rolls or glides, and its tilt has
@@ -302,7 +301,7 @@ class _Told:
             "spin": abs(float(first[5])), "last": abs(float(last[5])), "low": float(start[2]),
             "high": float(upto[:, 2].max()) if len(upto) else float(first[2]),
             "start": float(start[3] + start[4] * (motion.table == "rough")), "left": float(last[3]),
-            "happens": say(f"planes.events.{motion.ended}", part=_part(motion)) if motion.ended else "",
+            "happens": _happens(motion) if motion.ended else "",
             "part": _part(motion),
         }  # fmt: skip
 
@@ -329,8 +328,7 @@ def _caption(motion: TableMotion) -> str:
     low, high = float(motion.tilt.min()), float(motion.tilt.max())
     by = high - low
     if motion.ended_at is not None:
-        kind = "stem" if motion.ended == "stem touches" else "air"
-        return say(f"lab.caption.{kind}", time=motion.ended_at, part=_part(motion))
+        return say("lab.caption.ends", time=motion.ended_at, happens=_happens(motion))
     if by < TENTH[0]:
         return say("lab.caption.stays", low=low)
     if by < TENTH[1]:

@@ -80,10 +80,12 @@ def words():
 
 def searches():
     """{query that opens the arrival and nothing else: its language, or "" for the browser's}."""
-    found, tab = {"": ""}, {names.TAB: room.FIRST}
-    for language in ("", *LANGUAGES):
-        asked = tab | ({names.LANGUAGE: language} if language else {})
-        found |= {names.query(more | asked): language for more in ({}, {names.VERSION_NAME: str(VERSION)})}
+    found = {}
+    for tab in ({}, {names.TAB: room.FIRST}):
+        for language in ("", *LANGUAGES):
+            asked = tab | ({names.LANGUAGE: language} if language else {})
+            versions = ({}, {names.VERSION_NAME: str(VERSION)})
+            found |= {names.query(more | asked) if more | asked else "": language for more in versions}
     return found
 
 

@@ -225,7 +225,7 @@ class House:
 
     def _throw(self, toy, spin, tilt, mu, look):
         table = {"table": "ordinary"} if look else {}  # that of the map
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH, **table)  # the patch of the map
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, law="contact", patch=PATCH, **table)  # as of the map
         if look:
             self._look_at("lab")
 

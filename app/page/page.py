@@ -50,7 +50,7 @@ def page():
     if VOTE in texts:  # the link of a student
         return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), look, failed],
                          stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
-    house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts, search))
+    house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts))
     pacer, keep = house.pacer, house.keep
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
@@ -61,12 +61,11 @@ def page():
         keep.add(owner)
     for show in (share.show, guide.show):
         pacer.shows(show, "rest")
-    rooms = Rooms(house.makers, TABS, keep, pacer.now, room.AT_ONCE, room.opened(texts, search), room.USUAL,
+    rooms = Rooms(house.makers, TABS, keep, pacer.now, room.AT_ONCE, room.opened(texts), room.USUAL,
                   house.level)  # fmt: skip
     rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
     rooms.param.watch(lambda event: house.start.moved(event.new), "room")
     house.level = rooms.level
-    house.start.opened(rooms.room)
     house.start.moved(rooms.room)
     if rooms.room not in room.VIEWS[LEVELS[1]]:
         rooms.turn(house.start.room)

@@ -38,6 +38,22 @@ class Number:
         return float(text)
 
 
+class Same:
+    """A float, or None, which is written as a word: the same as another one."""
+
+    WORD = "same"
+
+    @staticmethod
+    def text(value):
+        """The text of a finite number, or of None."""
+        return Same.WORD if value is None else Number.text(value)
+
+    @staticmethod
+    def value(text):
+        """The number in a text, or None; else raises ValueError."""
+        return None if text == Same.WORD else Number.value(text)
+
+
 class Numbers:
     """A list of a fixed number of floats, or None."""
 

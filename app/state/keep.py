@@ -1,7 +1,7 @@
 """The state of the page as the query of its address, and undo and redo.
 
 names.py says which name stores what. A query contains only what differs from the default, every number to the last
-digit: ?v=2&KJ=6.7&mu=.3. It may come from anyone, so it is checked.
+digit: ?v=3&KJ=6.7&mu=.3. It may come from anyone, so it is checked.
 """
 
 from dataclasses import dataclass
@@ -15,12 +15,13 @@ from app.model.explorer import Explorer
 from app.model.start import arrives
 from app.state import asked, older
 from app.state.codecs import Body, Number
-from app.state.names import NAMES, SECRET, VERSION_NAME, of, query
+from app.state.names import NAMES, ROLLING, SECRET, VERSION_NAME, of, query
+from app.state.opened import opened
 from app.text import say, told
 from tippe_core import TopError
 
-# The defaults belong to a version: if they or the meaning of a name change, this becomes 3.
-VERSION = 2
+# The defaults belong to a version: if they or the meaning of a name change, this becomes 4.
+VERSION = 3
 LONGEST_QUERY = 12_000  # characters; the body with the most points that can be built needs fewer
 MOST_NAMES = 60
 STEPS = 100
@@ -30,18 +31,27 @@ FOLLOWING = {name for names in Explorer.GIVEN.values() for name in names}
 
 
 def read(query):
-    """(texts, sentence): the names and texts of a query; {} and a sentence if it is not valid. Never raises."""
+    """(texts, sentence): the names and texts of a query; those of an address with nothing else, and a sentence, if it
+    is not valid. Never raises."""
     query = query.removeprefix("?")
     if len(query) > LONGEST_QUERY:
-        return {}, say("share.link.too_long", letters=len(query))
+        return older.third({}), say("share.link.too_long", letters=len(query))
     try:
         texts = dict(parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_NAMES))
     except ValueError:
-        return {}, say("share.link.too_many")
-    version = texts.pop(VERSION_NAME, "1")
+        return older.third({}), say("share.link.too_many")
+    version = texts.pop(VERSION_NAME, str(VERSION) if _is_look(texts) else "1")
     if version == "1":
-        return older.today(texts), ""
+        texts = older.second(texts)
+    if version in ("1", "2"):
+        return older.third(texts), ""
     return texts, "" if version == str(VERSION) else say("share.link.newer")
+
+
+def _is_look(texts):
+    """Whether all that is said is how the page looks, or its language."""
+    looks = {name.key: name for name in (*of("Look").values(), *of("PageLanguage").values())}
+    return all(key in looks for key in texts) and not values(texts, {key: looks[key] for key in texts})[1]
 
 
 def shared(query):
@@ -74,9 +84,10 @@ def inputs_of(texts):
 
 
 def explorer_of(texts, explores=False):
-    """(Explorer, sentence): the start in texts, or the default one of this level if it is impossible. Never raises."""
+    """(Explorer, sentence): the start in texts, or the default one of this level if it is impossible; an address of
+    what rolls is one of the rough table. Never raises."""
     inputs, sentence = inputs_of(texts)
-    first = arrives() if explores else {}
+    first = arrives() if explores else {"table": "rough"} if opened(texts) == ROLLING else {}
     try:
         return Explorer(**first | inputs), sentence
     # the solver's error for numbers whose squares or reciprocals overflow

@@ -15,12 +15,13 @@ from app.model.maps.maps import COLOURS_BY
 from app.model.region import PAPER
 from app.model.setup import LAWS
 from app.model.start import TABLES
-from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf
+from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf, Same
 from app.state.map_text import MapText
 from app.text import LANGUAGES
 
 ROOMS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
 """Tabs may consist of several rooms."""
+TOY, ROLLING, PLANES = ROOMS[:3]
 LEVELS = ("explore", "research")
 SECTIONS = ("lesson", "derivation", "published", "teach", "history")
 """The rooms of the tab Learn."""
@@ -55,7 +56,7 @@ ROWS = (
     Name("a", "Explorer", "a", Number),
     Name("I1", "Explorer", "I1", Number),
     Name("I3", "Explorer", "I3", Number),
-    Name("mu", "Explorer", "mu_s", Number),
+    Name("mu", "Explorer", "mu_s", Same),
     Name("by", "Explorer", "given", _words("share", "E", "state", "hand")),
     Name("KJ", "Explorer", "K_J", Number),
     Name("KR", "Explorer", "K_R", Number),

@@ -1,19 +1,32 @@
-"""Links of version 1, in which each view of the Lab had its own top, start and table: they still open what they opened,
-and are rewritten with today's names."""
+"""Links of earlier versions: they still open what they opened, and are rewritten with today's names.
 
-from app.model.setup import TOYS
+In version 1 each view of the Lab had its own top, start and table. In versions 1 and 2 an address without a tab opened
+the rolling motion, the toy always had a real contact, and static friction was .5 until it was set.
+"""
+
+from app.model.setup import LAWS, TOYS
 from app.state.codecs import Body, Number
-from app.state.names import TAB
+from app.state.names import LEVEL, LEVELS, ROLLING, TAB, TOY
 
 LAB = {"turns": "spin", "lean": "tilt", "rub": "mu_k"}  # of a start by hand in the Lab
 MOTION = "by", "KJ", "KR", "e", "E", "th", "thd", "w2", "w3", "phi", "psi"
 HAND = "spin", "tilt", "slip"  # of a start by hand on the three planes
 TABLE = {"sliding": "ordinary", "smooth": "ice", "compare": "three"}
 ONLY_THEN = {*LAB, "toy", "plane", "start", "mu_smooth", "mu_stick"}
+MU = ".5"  # static friction where none was said
 MU_S = ".4"  # the default of Coulomb's law on the three planes in version 1
 
 
-def today(texts):
+def third(texts):
+    """The texts of a version 2 query in version 3."""
+    found = {TAB: ROLLING} | texts
+    toy = found[TAB] == TOY
+    if found.get(LEVEL, LEVELS[0] if toy else LEVELS[1]) == LEVELS[0]:
+        found = {"mu": MU} | found
+    return found | {"law": LAWS[0]} if toy else found
+
+
+def second(texts):
     """The texts of a version 1 query in version 2. Texts of views that it did not open are left out."""
     room = texts.get(TAB, "roll")
     of_room = {"lab": _lab, "three-planes": _planes}.get(room, dict)

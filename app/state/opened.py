@@ -3,28 +3,26 @@
 The Lab has three views: the toy that flips, at the level "explore"; at "research" the rolling motion, as in the paper,
 and the three planes. Each has its own name in an address.
 
-An address without a query opens the first view, as does one that names it. Any other address that names no tab opens
-the rolling motion, as it did before there was a Lab; one that names no level comes from a time when there was only what
-is now research.
+An address that names no tab opens the first view. One that names another tab but no level comes from a time when there
+was only what is now research.
 """
 
-from app.state.names import LEVEL, LEVELS, TAB
+from app.state.names import LEVEL, LEVELS, PLANES, ROLLING, ROOMS, TAB, TOY
 
-FIRST, USUAL = AT_ONCE = "lab", "roll"
+FIRST, USUAL = AT_ONCE = TOY, ROLLING
 """Rooms whose view is created with the page."""
-PLANES = "three-planes"
 VIEWS = dict(zip(LEVELS, ((FIRST,), (USUAL, PLANES)), strict=True))
 
 
-def opened(texts, query=""):
-    """The name of the room that a query opens; query: the original one, of which the texts may be a part."""
-    return texts.get(TAB, USUAL if texts or query.strip("?") else FIRST)
+def opened(texts):
+    """The name of the room that a query with these texts opens."""
+    room = texts.get(TAB, FIRST)
+    return room if room in ROOMS else USUAL
 
 
-def level(texts, query=""):
-    """The level at which a query opens it."""
-    explores = opened(texts, query) == FIRST
-    return texts.get(LEVEL, "explore" if explores else "research")
+def level(texts):
+    """The level at which it opens it."""
+    return texts.get(LEVEL, LEVELS[0] if opened(texts) == FIRST else LEVELS[1])
 
 
 def shortest(texts):

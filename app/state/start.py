@@ -1,7 +1,7 @@
 """The one start that all rooms share: which view-model computes it in a room, and which room shows its table at the
 level "Research". Going to a room sets nothing of the start."""
 
-TOY, ROLLING, PLANES = "lab", "roll", "three-planes"
+from app.state.names import PLANES, ROLLING, TOY
 
 
 class OneStart:
@@ -13,11 +13,6 @@ class OneStart:
     def have(self, planes):
         """To be called when the Planes have been created."""
         self._planes = planes
-
-    def opened(self, room):
-        """To be called with the room that an address names: the one that rolls is an address of the rough table."""
-        if room == ROLLING:
-            self._explorer.table = "rough"
 
     def moved(self, room):
         """To be called when the page shows a room, given by its name in an address."""

@@ -1,8 +1,9 @@
 """What the page says of a link."""
 
-from app.model.lab.lab import scene_of
+from app.model.lab.lab import in_lab, scene_of
 from app.model.telling import told
 from app.state.keep import explorer_of, read
+from app.state.names import LEVELS
 from app.state.opened import level
 from app.text import speaking
 
@@ -13,7 +14,5 @@ def tell(query="", language="en"):
     that is impossible on all of them."""
     texts, _ = read(query)
     with speaking(language):
-        start, _ = explorer_of(texts, level(texts, query) == "explore")
-        given = None if start.at_rest else start.let_go
-        scene = scene_of("three", start.body, start.spin, start.tilt, start.mu, given, start.patch, whole=True)
-        return told(scene)
+        start, _ = explorer_of(texts, level(texts) == LEVELS[0])
+        return told(scene_of("three", in_lab(start.setup), whole=True))

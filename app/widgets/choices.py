@@ -3,7 +3,7 @@
 from app.model.setup import TOYS
 from app.model.start import TABLES
 from app.state import asked
-from app.state.start import PLANES, ROLLING
+from app.state.names import PLANES, ROLLING
 from app.text import LANGUAGES, listed, say
 
 OWN = ""  # a body that has no name

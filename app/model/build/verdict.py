@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from app.model.arrival import MU, SPIN, TABLE, TILT
 from app.model.events import first_times
 from app.model.run import TooLong, whole_on
+from app.model.setup import start_of
 from app.text import say, told
 from tippe_core import Shape, TopError
 from tippe_core.types import Number
@@ -23,7 +24,7 @@ def verdict(shape: Shape) -> Verdict:
     """The Verdict on a body, in the page's language."""
     start: dict[str, Number] = {"spin": SPIN, "tilt": TILT, "mu": MU}
     try:
-        motion = whole_on(TABLE, shape, SPIN, TILT, MU)
+        motion = whole_on(TABLE, start_of(shape, SPIN, TILT, MU))
     except (TopError, TooLong) as error:
         why = told(error) if isinstance(error, TopError) else say("lab.refused.too-long")
         return Verdict("refused", say("build.verdict.refused"), say("build.verdict.refused_why", why=why, **start))

@@ -5,11 +5,12 @@ import json
 from app.model.arrival import MU, TILT
 from app.model.families.known_tops import FILE, known_tops
 from app.model.lab.ends import SPINS, ends_of
+from app.model.setup import start_of
 
 
 def least(name: str) -> float | None:
     """The least of SPINS with which a top, let go like the arrival's, comes to stand turned over; None if none does."""
-    codes = ends_of(name, TILT, MU).codes
+    codes = ends_of(start_of(name, 0.0, TILT, MU)).codes
     return next((float(spin) for spin, code in zip(SPINS, codes, strict=True) if code in ("stands", "inverted")), None)
 
 

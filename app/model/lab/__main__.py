@@ -7,7 +7,8 @@ import numpy as np
 from app.model.arrival import FILE, HAPPENS, MU, SPIN, TILT, TOY
 from app.model.lab.ends import ends_of
 from app.model.life import lived
-from app.model.run import Patience, start_of
+from app.model.run import Patience
+from app.model.setup import start_of
 from tippe_core import Trajectory
 
 NO_ROWS = "top", "notes", *HAPPENS
@@ -25,4 +26,5 @@ def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:
 
 
 if __name__ == "__main__":
-    write(lived(start_of(TOY, SPIN, TILT, MU), Patience)[1], ends_of(TOY, TILT, MU).codes)
+    start = start_of(TOY, SPIN, TILT, MU)
+    write(lived(start, Patience)[1], ends_of(start).codes)

@@ -5,15 +5,21 @@ import math
 from types import MappingProxyType
 from typing import TypeAlias
 
-from app.model.setup import TABLES, TOYS
+from app.model.setup import LAWS, TABLES, TOYS
 from app.text import say
 from tippe_core import Shape
 
-LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5), "patch": (0.01, 5.0)})
-"""{input: the range in which the Lab lets it be set}, in rev/s, degrees and mm; the sliders have smaller ranges."""
-POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0), "mu": (0.0, 1e3), "patch": (0.0, 1e3)})
+LIMITS = MappingProxyType({
+    "spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5), "mu_s": (0.01, 1.5), "gamma": (0.0, 10.0),
+    "eps": (0.01, 5.0), "patch": (0.01, 5.0),
+})  # fmt: skip
+"""{input: the range in which the Lab lets it be set}, in rev/s, degrees, mm, R, M and g; the sliders have smaller
+ranges."""
+POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0)} | {
+    name: (0.0, 1e3) for name in ("mu", "mu_s", "gamma", "eps", "patch")
+})  # fmt: skip
 """The same for a start that comes from elsewhere, for example from a link: within it the start is kept and shown."""
-CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
+CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS), "law": LAWS})
 Limits: TypeAlias = MappingProxyType[str, tuple[float, float]]
 SHOWN = 30  # characters of an input that is not a number, as quoted in a sentence
 
@@ -31,7 +37,8 @@ def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
         return say("lab.inputs.number", value=typed, least=least, most=most)
     if least <= number <= most:
         return ""
-    said = say(f"lab.inputs.{name}", value=number, least=least, most=most)
+    key = name if name in ("spin", "tilt", "mu", "patch") else "range"
+    said = say(f"lab.inputs.{key}", value=number, least=least, most=most)
     return f"{said} {say('lab.inputs.same', value=number, same=_folded(number))}" if name == "tilt" else said
 
 

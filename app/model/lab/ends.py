@@ -1,9 +1,10 @@
-"""How the runs at all spins end, for the strip below the slider; for one toy, tilt and friction, shared by all
-visitors."""
+"""How the runs at all spins end, for the strip below the slider; for one start of which only the spin differs, shared
+by all visitors."""
 
 import threading
 from collections import OrderedDict
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from itertools import groupby, pairwise
 from typing import Any, NamedTuple
@@ -13,8 +14,7 @@ from numpy.typing import NDArray
 
 from app.model import arrival
 from app.model.phases import NODS, STANDS
-from app.model.run import Start, start_of
-from app.model.setup import PATCH, Toy
+from app.model.setup import SECONDS, Setup, start_of
 from app.text import say
 from tippe_core import Many, State, States, Top, slide_many, thresholds
 from tippe_core.types import Array, Bools
@@ -27,7 +27,6 @@ HIGH, LOW = np.radians(180 - STANDS[0]), np.radians(NODS)  # as the judge's phas
 CLOSE = 2  # cells: if the end changes again within so few, the ends are called mixed
 MOST = 64  # the number of Ends that are stored
 LOOKS = 0.2  # s between two checks of a page that waits for the result of another
-Key = tuple[Toy, float, float, float]  # toy, tilt, mu, patch
 
 
 class Segment(NamedTuple):
@@ -59,54 +58,61 @@ class Ends(NamedTuple):
         return tuple(found)
 
 
-_kept: OrderedDict[Key, Ends] = OrderedDict()
-_under_way: set[Key] = set()
+_kept: OrderedDict[Setup, Ends] = OrderedDict()
+_under_way: set[Setup] = set()
 _changing = threading.Condition()  # guards _kept and _under_way; notified when a computation ends
 
 
-def known_ends(toy: Toy, tilt: float, mu: float, patch: float = PATCH) -> Ends | None:
+def of_spins(start: Setup) -> Setup:
+    """The start of which the Ends are: any spin, let go with G at rest, and run as in the Lab."""
+    return replace(
+        start, spin=0.0, slip=1.0, rolling=None, landing="plastic", stem=True, seconds=SECONDS, most_turn=0.5
+    )
+
+
+ARRIVAL = of_spins(start_of(*arrival.ARRIVAL[1:]))
+
+
+def known_ends(start: Setup) -> Ends | None:
     """What ends_of() has found before, or what ships with the arrival; None if it has to be computed."""
-    key = toy, tilt, mu, patch
+    key = of_spins(start)
     with _changing:
         found = _kept.get(key)
-        if found is None and key == (arrival.TOY, arrival.TILT, arrival.MU, PATCH):
-            found = _kept[key] = Ends(SPINS, arrival.read_ends(), start_of(toy, 0.0, tilt, mu).part)
+        if found is None and key == ARRIVAL:
+            found = _kept[key] = Ends(SPINS, arrival.read_ends(), key.part)
         if found is not None:
             _kept.move_to_end(key)
     return found
 
 
-def ends_of(
-    toy: Toy, tilt: float, mu: float, patch: float = PATCH, look: Callable[[float], object] | None = None
-) -> Ends:
-    """The Ends of a toy. look: called with the share that is done; an exception that it raises stops the computation.
+def ends_of(start: Setup, look: Callable[[float], object] | None = None) -> Ends:
+    """The Ends of a start. look: called with the share that is done; an exception that it raises stops the computation.
     Raises TopError."""
-    starts = [start_of(toy, float(spin), tilt, mu, patch=patch) for spin in SPINS]
-    found = Ends(SPINS, _codes(starts, look or (lambda share: None)), starts[0].part)
+    key = of_spins(start)
+    starts = [replace(key, spin=float(spin)) for spin in SPINS]
+    found = Ends(SPINS, _codes(starts, look or (lambda share: None)), key.part)
     with _changing:
-        _kept[toy, tilt, mu, patch] = found
+        _kept[key] = found
         while len(_kept) > MOST:
             _kept.popitem(last=False)
     return found
 
 
-def ends_once(
-    toy: Toy, tilt: float, mu: float, patch: float = PATCH, look: Callable[[float], object] | None = None
-) -> Ends:
+def ends_once(start: Setup, look: Callable[[float], object] | None = None) -> Ends:
     """ends_of(), but if several pages ask for the same Ends at the same time, only one of them computes it."""
-    key = toy, tilt, mu, patch
+    key = of_spins(start)
     while not _taken(key):
         if look is not None:
             look(0.0)
     try:
-        return known_ends(*key) or ends_of(*key, look=look)
+        return known_ends(key) or ends_of(key, look=look)
     finally:
         with _changing:
             _under_way.discard(key)
             _changing.notify_all()
 
 
-def _taken(key: Key) -> bool:
+def _taken(key: Setup) -> bool:
     """Whether the caller should compute it; waits up to LOOKS seconds if another page is doing so."""
     with _changing:
         free = _changing.wait_for(lambda: key not in _under_way, LOOKS)
@@ -115,7 +121,7 @@ def _taken(key: Key) -> bool:
     return free
 
 
-def _codes(starts: list[Start], look: Callable[[float], object]) -> tuple[str, ...]:
+def _codes(starts: list[Setup], look: Callable[[float], object]) -> tuple[str, ...]:
     """The codes of the runs: until TIMES[-1], and of those that may come to stand later, until they do, or roll."""
     start, unit = starts[0], starts[0].scales.time
     slides = partial(slide_many, start.top, friction=start.friction, edge=start.edge)

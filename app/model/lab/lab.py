@@ -1,4 +1,4 @@
-"""The view-model of the Lab: one toy, one start by hand, and the table on which it is watched.
+"""The view-model of the Lab: one start, and the table on which it is watched.
 
 Only the newest request is computed, in a thread. The previous scene is shown until it is done, and stays if it cannot
 be computed.
@@ -8,63 +8,58 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from math import floor
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any
 
 import param
 
-from app.model.arrival import TABLE, TILT
+from app.model.arrival import TILT
 from app.model.keeps import keeps, while_it_turns
 from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
-from app.model.lab.ends import Ends, Key, ends_once, known_ends
-from app.model.run import SHIPS, TableMotion, TooLong, motion_on, start_of, whole_on
+from app.model.lab.ends import Ends, ends_once, known_ends, of_spins
+from app.model.run import SHIPS, TableMotion, TooLong, motion_on, whole_on, why_not
 from app.model.runs import LATER, Result, Run, Runs, Stopped
-from app.model.setup import PATCH, TABLES, Toy
-from app.model.start import Start, arrives, of_toy
+from app.model.setup import OF_LAW, SECONDS, TABLES, Setup, Toy
+from app.model.start import NUMBERS, Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, of_all, story
-from app.text import say, told
+from app.text import say
 from app.together import set_together
-from tippe_core import State, TopError
+from tippe_core import TopError
 from tippe_core.types import Array
 
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
-Inputs: TypeAlias = tuple[str, Toy, float, float, float, State | None, float]
-"""table, toy, spin, tilt, mu; the State of a start that is not made by hand with G at rest, else None; and the radius
-of the patch."""
-WATCHED = "table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "mu", "patch"
+WATCHED = ("table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "law", *NUMBERS)
+Inputs = tuple[str, Setup]
 FIRST: Inputs = SHIPS
+IN_LAB = {"mu_k": "mu", "friction": "mu", "radius": "patch"}
+"""{name of an input of the core: its name here}, where they differ."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LabScene:
-    """Everything that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu, given, patch: its inputs.
+    """Everything that the Lab shows. table, start: its inputs.
 
     motions: {table: TableMotion or None}; None if the table is not watched, or if there is no motion: then refused has
     a sentence that says why. stories: {table: Story} of these motions. said: the headline and the explanation for all
     three together. keeps: {table: its keeps()} for all three; turning: while_it_turns() of the ordinary
     one. messages: {input: a sentence} for each input that was
-    refused; the rest is then the last valid scene. profile: (k, 2) in R; a in R; seconds for one unit of time, for the
-    picture in 3-D; part: "stem" or "rim". whole: whether the motions are computed to their end.
+    refused; the rest is then the last valid scene. whole: whether the motions are computed to their end.
     """
 
     table: str
-    toy: Toy
-    spin: float
-    tilt: float
-    mu: float
-    given: State | None
-    patch: float
+    start: Setup
     motions: MappingProxyType[str, TableMotion | None]
     stories: MappingProxyType[str, Story]
     refused: MappingProxyType[str, str]
     said: tuple[str, str]
     keeps: MappingProxyType[str, Array]
     turning: tuple[float, float, float] | None
-    profile: Array
-    a: float
-    seconds: float
-    part: str
     whole: bool
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def toy(self) -> Toy:
+        """The body, by its name if it has one."""
+        return self.start.toy
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -83,17 +78,7 @@ class LabScene:
         return self.stories.get(table) or Story((), (Stage(0.0, short, self.refused[table], short),), short)
 
 
-def scene_of(
-    table: str,
-    toy: Toy,
-    spin: float,
-    tilt: float,
-    mu: float,
-    given: State | None = None,
-    patch: float = PATCH,
-    *,
-    whole: bool = False,
-) -> LabScene:
+def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
     """The LabScene of a start, in the page's language; whole: to the end of the toy's life. Raises TopError, whose name
     is an input, if that input's value is impossible on all of the tables."""
     watched, seen = tuple(TABLES) if table == "three" else (table,), whole_on if whole else motion_on
@@ -101,35 +86,35 @@ def scene_of(
     refused: dict[str, str] = {}
     for each in watched:
         try:
-            motions[each] = seen(each, toy, spin, tilt, mu, given, patch)
+            motions[each] = seen(each, start)
         except TopError as error:
-            if error.code == "body-below-table":
+            if error.code in ("body-below-table", "below-sliding"):
                 raise
             refused[each] = _sentence(error)
         except TooLong:
             refused[each] = say("lab.refused.too-long")
-        except (ValueError, ArithmeticError):  # of the solvers without friction, where digits are lost
-            if each == "ordinary":
-                raise
-            refused[each] = say("planes.run.extreme")
     found = {name: motion for name, motion in motions.items() if motion is not None}
-    start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
+    stories = {name: story(motion) for name, motion in found.items()}
     return LabScene(
-        table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, given=given, patch=patch, motions=MappingProxyType(motions),
+        table=table, start=start, motions=MappingProxyType(motions),
         stories=MappingProxyType(stories), refused=MappingProxyType(refused),
         said=of_all(found),
         keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
         turning=while_it_turns(found["ordinary"]) if "ordinary" in found else None,
-        profile=start.profile, a=start.top.a, seconds=start.scales.time, part=start.part,
         whole=whole or (table != "three" and all(motion.whole for motion in found.values())),
     )  # fmt: skip
+
+
+def in_lab(start: Setup) -> Setup:
+    """A start as it is run here: its stem takes part, it lands where it hops, and it goes on to the end of its life."""
+    return replace(start, landing="plastic", stem=True, seconds=SECONDS, most_turn=0.5)
 
 
 def _sentence(error: TopError) -> str:
     """Why a start is impossible."""
     if error.code in ("stem-below-table", "body-below-table"):
         return say(f"lab.refused.{error.code}", tilt=error.value, most=error.numbers["most"])
-    return told(error)
+    return why_not(error)
 
 
 class Lab(param.Parameterized):
@@ -144,7 +129,7 @@ class Lab(param.Parameterized):
     scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last result; None before show()")
     ends = param.Parameter(None, constant=True, doc="Ends over the slider's spins; None until they are computed")
 
-    INPUTS = ("table", "toy", "spin", "tilt", "mu", "patch")
+    INPUTS = ("table", "toy", "spin", "tilt", "law", *NUMBERS)
 
     def __init__(self, runs: Runs | None = None, start: Start | None = None) -> None:
         self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
@@ -155,8 +140,8 @@ class Lab(param.Parameterized):
         self.refused: dict[str, object] = {}  # the values of a link, or of another room, that cannot be
         self.nearest: dict[str, float] = {}  # what can be, of each input that was refused as a number
         self._good = FIRST
-        self._back = {"table": TABLE, "slip": 1.0, "patch": PATCH} | arrives()  # what sets the Start back to it
-        self._strip: Key | None = None
+        self._back = Start(**arrives()).set  # type: ignore[no-untyped-call]  # what sets the Start back to it
+        self._strip: Setup | None = None
         self._seen: Inputs | None = None  # the inputs at the last call of _follow()
         super().__init__()  # type: ignore[no-untyped-call]  # of param
         self.start.param.watch(self._follow, list(WATCHED))
@@ -164,9 +149,11 @@ class Lab(param.Parameterized):
     @property
     def inputs(self) -> Inputs:
         """The present inputs."""
-        start = self.start
-        given = None if start.at_rest else start.let_go
-        return start.table, start.toy, start.spin, start.tilt, start.mu, given, start.patch
+        return self.start.table, in_lab(self.start.setup)
+
+    def value(self, name: str) -> Any:
+        """The present value of an input."""
+        return self.start.static if name == "mu_s" else getattr(self.start, name)
 
     def show(self) -> None:
         """Starts computing the present inputs; nothing is computed before the view is shown."""
@@ -210,19 +197,18 @@ class Lab(param.Parameterized):
         self.start.later(**self._back)
 
     @property
-    def _key(self) -> Key | None:
-        """The key of the Ends; None if the start is not by hand with G at rest."""
-        start = self.start
-        return (start.toy, start.tilt, start.mu, start.patch) if start.at_rest else None
+    def _key(self) -> Setup | None:
+        """The start of the Ends; None if it is not by hand with G at rest."""
+        return of_spins(self.start.setup) if self.start.at_rest else None
 
     def rest(self) -> None:
         """To be called when no hand moves: looks up how the runs at all spins end, or has it computed in a thread."""
         self.rests = True
         self._live()  # before the ends at all spins, which take far longer
         key = self._strip = self._key
-        self._set(ends=key and known_ends(*key))
+        self._set(ends=key and known_ends(key))
         if key and self.ends is None:
-            work = Run(lambda run: ends_once(*key, look=run.look), partial(self._ended, key))
+            work = Run(lambda run: ends_once(key, look=run.look), partial(self._ended, key))
             self._runs.begin(work, "ends", LATER)
 
     def _live(self) -> None:
@@ -241,7 +227,7 @@ class Lab(param.Parameterized):
         elif not isinstance(result, Stopped):
             raise result
 
-    def _ended(self, key: Key, result: Result) -> None:
+    def _ended(self, key: Setup, result: Result) -> None:
         if isinstance(result, Ends) and key == self._key:
             self._set(ends=result)
         elif isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
@@ -256,7 +242,8 @@ class Lab(param.Parameterized):
         """Computes the present inputs, now or when the present run is done."""
         if not self._shown:
             return
-        values = {name: getattr(self.start, name) for name in self.INPUTS}
+        law = OF_LAW[self.start.law]
+        values = {name: self.value(name) for name in self.INPUTS if name in law or name not in NUMBERS}
         faults = {name: said for name, value in values.items() if (said := fault(name, value, POSSIBLE))}
         self.refused |= {name: values[name] for name in faults}
         self.nearest |= {name: near for name in faults if (near := nearest(name, values[name])) is not None}
@@ -316,15 +303,18 @@ class Lab(param.Parameterized):
     def _refused(self, inputs: Inputs, error: TopError) -> None:
         """Sets a refused input back; if a new body cannot have this tilt, it gets the tilt of the last scene or the
         default."""
-        name = error.name if error.name in LIMITS else "tilt"
+        name = IN_LAB.get(error.name, error.name if error.name in LIMITS else "tilt")
         self._messages[name] = _sentence(error)
         if error.code == "body-below-table":
             self.nearest[name] = floor(10 * error.numbers["most"]) / 10  # its slider's digits
+        elif error.code == "below-sliding":
+            self.nearest[name] = inputs[1].mu
         if self.inputs != inputs:
             return  # another start has been requested meanwhile
-        known = self._good[1] == self.start.toy and self.scene
+        good = self._good[1]
+        known = good.toy == self.start.toy and self.scene
         is_tilt = name == "tilt" and self.start.at_rest
-        self.start.later(**{"tilt": self._good[3] if known else TILT} if is_tilt else self._back)
+        self.start.later(**{"tilt": good.tilt if known else TILT} if is_tilt else self._back)
         self._tell()
 
     def _tell(self) -> None:

@@ -4,75 +4,44 @@ One toy, that of the Lab on arrival, on its three tables; the same toy with a po
 patch; the paper's top as a whole ball, rolling, and upside down with either of two spins; and the page's own top.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from app.model.arrival import MU, SPIN, TILT, TOY
-from app.model.bodies import outline
 from app.model.frames import in_space
 from app.model.lesson.parts import K_R
 from app.model.lesson.parts import TILT as THROWN_TILT
 from app.model.regimes import OF_CORE
-from app.model.run import Start, TableMotion, computed, motion_on, moved, start_of
+from app.model.run import TableMotion, computed, motion_on, moved
 from app.model.scene import Scene
-from app.model.setup import TOYS
-from tippe_core import (
-    Constants,
-    Contensou,
-    Coulomb,
-    Friction,
-    SmoothedCoulomb,
-    State,
-    Top,
-    Trajectory,
-    omega3,
-    roll,
-    slide,
-)
+from app.model.setup import TOYS, Setup, start_of
+from tippe_core import Constants, SmoothedCoulomb, State, Top, Trajectory, omega3, roll, slide
 from tippe_core.types import Array, Indices
 
-SMALL_PATCH = 1e-4  # m: of a hard toy
+SMALL_PATCH = 0.1  # mm: of a hard toy
 HEAD_SECONDS = 1.2  # s for which an inverted top is shown
 A_NUTATION = 96  # frames
 LAW = SmoothedCoulomb(0.3, 1.0)
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Pointed(Start):
-    """A toy with a point contact, with Coulomb friction only."""
-
-    @property
-    def friction(self) -> Friction:
-        return Coulomb(self.mu, self.mu)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Patched(Start):
-    """A toy with a small contact patch."""
-
-    @property
-    def friction(self) -> Friction:
-        return Contensou(self.mu, SMALL_PATCH / self.scales.R)
-
-
 @lru_cache(4)
-def of_contact(kind: type[Start]) -> TableMotion:
-    """The toy and start of the arrival on the ordinary table, with another kind of contact."""
-    start = kind(**vars(start_of(TOY, SPIN, TILT, MU)))
+def of_contact(law: str) -> TableMotion:
+    """The toy and start of the arrival on the ordinary table, touching it at a point, with Coulomb's law, or in a small
+    patch."""
+    start = replace(start_of(TOY, SPIN, TILT, MU), law=law, patch=SMALL_PATCH)
     return moved(start, "ordinary", *computed(start, "ordinary"))
 
 
 def on_table(table: str) -> TableMotion:
     """The toy and start of the arrival on a table."""
-    return motion_on(table, TOY, SPIN, TILT, MU)
+    return motion_on(table, start_of(TOY, SPIN, TILT, MU))
 
 
 def own(scene: Scene) -> TableMotion:
     """The page's own top, released like the toy of the arrival; raises TopError if that is not possible."""
-    start = Start(toy="", top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile,
-                  landing="plastic", stem=True, seconds=6.0, spin=SPIN, tilt=TILT, mu=MU)  # fmt: skip
+    start = Setup(top=scene.top, scales=scene.scales, shape=scene.shape, spin=SPIN, tilt=TILT, mu=MU, mu_s=MU)
     return moved(start, "ordinary", *computed(start, "ordinary"))
 
 
@@ -91,7 +60,7 @@ class Proof:
     spin: float
     jellett: float
     routh: float
-    setup: Start
+    setup: Setup
 
     def at(self, theta: Array) -> Array:
         """The spin about its own axis that Routh's constant requires at these tilts, rev/s."""
@@ -107,9 +76,8 @@ def proof() -> Proof:
     start = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, omega)
     # (30) at theta = pi, where omega_2' does not contribute
     jellett = -top.I1 / top.I3 * float(start.K_J) / (1 + top.a)
-    setup = Start(toy=preset.name, top=top, scales=preset.shape.scales, shape=None, profile=outline(top),
-                  landing="plastic", stem=False, seconds=HEAD_SECONDS, spin=turns * omega,
-                  tilt=float(np.degrees(THROWN_TILT)), mu=MU)  # fmt: skip
+    setup = Setup(top=top, scales=preset.shape.scales, shape=None, spin=turns * omega,
+                  tilt=float(np.degrees(THROWN_TILT)), mu=MU, mu_s=MU, stem=False, seconds=HEAD_SECONDS)  # fmt: skip
     return Proof(top=top, start=start, spin=turns * omega, jellett=turns * jellett,
                  routh=turns * float(omega3(np.pi, top, start)), setup=setup)  # fmt: skip
 
@@ -127,7 +95,7 @@ def named(name: str) -> TableMotion:
     """The run to which a step refers by this name."""
     found = proof()
     if name in ("point", "patch"):
-        return of_contact(Pointed if name == "point" else Patched)
+        return of_contact("coulomb" if name == "point" else "contact")
     if name == "rolls":
         return rolled(THROWN_TILT, found.spin)
     if name in ("by_jellett", "by_routh"):

@@ -52,10 +52,14 @@ def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
     return [(unit * float(zero), say("planes.moments.turns"))]
 
 
-def _touches(motion: Motion, unit: float, part: str) -> list[tuple[float, str]]:
+def _touches(motion: TableMotion, unit: float, part: str) -> list[tuple[float, str]]:
     """The events of its contacts; of series that are too fast to be seen only the first event, and the number of the
-    others."""
-    events = [(unit * t, say(f"planes.events.{event}", part=part)) for t, event in motion.trajectory.events]
+    others. That it sticks for good is told as the table's grip."""
+    happens = [(unit * t, event) for t, event in motion.trajectory.events]
+    grips = motion.cuts.get("rolls", np.inf)
+    last_slip = max((t for t, event in happens if event == "slips" and t < grips), default=0.0)
+    events = [(t, say(f"planes.events.{event}", part=part)) for t, event in happens
+              if not (event == "sticks" and last_slip <= t <= grips < np.inf)]  # fmt: skip
     found: list[tuple[float, str]] = []
     last, more = -np.inf, 0
     for t, word in [*events, (np.inf, "")]:

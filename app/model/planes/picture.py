@@ -1,4 +1,4 @@
-"""One frozen Picture: one top on all three planes, and the Settings from which it was computed.
+"""One frozen Picture: one top on all three planes, and the Setup from which it was computed.
 
 In units of R, M and g, except for what a person sets: rev/s, degrees, s.
 """
@@ -10,56 +10,13 @@ from typing import Any
 import numpy as np
 
 from app.model.run import TableMotion
-from app.model.setup import TABLES, Setup, by_hand
-from tippe_core import (
-    Contensou,
-    Coulomb,
-    Friction,
-    Outcome,
-    SmoothedCoulomb,
-    State,
-    Viscous,
-)
+from app.model.setup import TABLES, Setup
+from tippe_core import Friction, Outcome, State
 
 SET = ("spin", "tilt", "slip", "law", "mu", "mu_s", "gamma", "eps", "patch", "landing", "stem", "seconds")
 BY = {True: "spin", False: "constants"}
 
 SHORT = 0.05  # s: a touch or hop that is too short to be seen
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Settings(Setup):
-    """Everything on which a run of the three planes depends. rolling: the State given by constants of the motion; None
-    if spin and tilt are given."""
-
-    rolling: State | None
-    spin: float
-    tilt: float
-    slip: float
-    law: str
-    mu: float
-    mu_s: float
-    gamma: float
-    eps: float
-    patch: float = 0.5  # mm
-
-    @property
-    def inputs(self) -> MappingProxyType[str, Any]:
-        """The inputs, by their names in the Planes."""
-        return MappingProxyType({name: getattr(self, name) for name in SET} | {"by": BY[self.rolling is None]})
-
-    @property
-    def friction(self) -> Friction:
-        if self.law == "viscous":
-            return Viscous(self.gamma)
-        if self.law == "contact":
-            return Contensou(self.mu, 1e-3 * self.patch / self.scales.R)
-        return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu, self.mu_s)
-
-    @property
-    def state(self) -> State:
-        """The State at t = 0, before a table grips it."""
-        return self.rolling or by_hand(self.spin, self.tilt, self.slip, self.scales)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,7 +30,7 @@ class Picture:
     nearest possible value}, where it is known.
     """
 
-    settings: Settings
+    settings: Setup
     state: State
     friction: Friction
     motions: MappingProxyType[str, TableMotion | None]

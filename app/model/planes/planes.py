@@ -1,6 +1,6 @@
 """The view-model of the three planes: the controls, one run of what they set, one frozen Picture of the results."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
 from typing import Any
@@ -9,11 +9,12 @@ import numpy as np
 import param
 
 from app.model.explorer import Explorer
-from app.model.planes.picture import BY, SET, Picture, Settings
+from app.model.planes.picture import BY, SET, Picture
 from app.model.planes.refusal import Refusal, refused
 from app.model.planes.run import hits, nudged, solve
 from app.model.runs import LATER, Full, Result, Run, Runs, Stopped
 from app.model.scene import Scene
+from app.model.setup import Setup
 from app.text import say
 from tippe_core import (
     Scales,
@@ -74,8 +75,8 @@ class Planes(param.Parameterized):
         self._start, self._runs = start, runs or Runs()
         self._run: Run | None = None
         self._beside: Run | None = None
-        self._asked: Settings | None = None
-        self._wanted: Settings | None = None
+        self._asked: Setup | None = None
+        self._wanted: Setup | None = None
         self._shown = self.begun = self._told_to_stop = False
         super().__init__()  # type: ignore[no-untyped-call]  # of param
         start.param.watch(lambda *events: self._run_anew(), ["given", *SET])
@@ -98,7 +99,8 @@ class Planes(param.Parameterized):
     def inputs(self) -> dict[str, Any]:
         """The present inputs."""
         start = self._start
-        return {name: getattr(start, name) for name in SET} | {"by": BY[start.given == "hand"]}
+        values = {name: getattr(start, name) for name in SET}
+        return values | {"mu_s": start.static, "by": BY[start.given == "hand"]}
 
     def ask(self, by: str | None = None, **inputs: Any) -> None:
         """Sets inputs; by: "spin" or "constants", which give the same start."""
@@ -134,18 +136,11 @@ class Planes(param.Parameterized):
             self._told_to_stop = True
             self._run.stop()
 
-    def _settings(self) -> Settings:
-        start, scene = self._start, self._start.scene
-        return Settings(
-            top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile,
-            rolling=None if start.given == "hand" else start.let_go, **{name: getattr(start, name) for name in SET},
-        )  # fmt: skip
-
     def _run_anew(self) -> None:
         if not self._shown:
             return
-        settings = self._settings()
-        if self._asked and _same(settings, self._asked):
+        settings = self._start.setup
+        if settings == self._asked:
             return
         self._asked = settings
         if self._beside:
@@ -159,7 +154,7 @@ class Planes(param.Parameterized):
         elif self._run.elapsed > PATIENCE:
             self._run.stop()
 
-    def _begin(self, settings: Settings) -> None:
+    def _begin(self, settings: Setup) -> None:
         self._running, self._wanted, self._told_to_stop = settings, None, False
         with param.edit_constant(self):
             self.busy = True
@@ -178,7 +173,7 @@ class Planes(param.Parameterized):
             return
         self._publish(settings, result, reached)
 
-    def _publish(self, settings: Settings, result: Result, reached: float = 0.0) -> None:
+    def _publish(self, settings: Setup, result: Result, reached: float = 0.0) -> None:
         if isinstance(result, Exception):
             self._refuse(settings, result, reached)
             return
@@ -189,7 +184,7 @@ class Planes(param.Parameterized):
             self._beside = Run(lambda run: nudged(result, run.look), partial(self._nudged, result))
             self._runs.begin(self._beside, "nudged", LATER)
 
-    def _refuse(self, settings: Settings, error: Exception, reached: float) -> None:
+    def _refuse(self, settings: Setup, error: Exception, reached: float) -> None:
         """Says why there is no picture of these inputs; whatever the reason, nobody is left waiting for one."""
         nearest: dict[str, float] = {}
         if isinstance(error, TopError):
@@ -220,8 +215,3 @@ class Planes(param.Parameterized):
         if isinstance(growth, float) and self.picture is not None and self.picture.motions is picture.motions:
             with param.edit_constant(self):
                 self.picture = replace(self.picture, growth=growth)
-
-
-def _same(one: Settings, other: Settings) -> bool:
-    """Whether two runs would be the same; the profile follows from the shape or the top."""
-    return all(getattr(one, part.name) == getattr(other, part.name) for part in fields(one) if part.name != "profile")

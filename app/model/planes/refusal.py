@@ -6,8 +6,7 @@ from types import MappingProxyType
 from typing import Any
 
 from app.model.motion import for_reader
-from app.model.planes.picture import Settings
-from app.model.setup import MOST_SECONDS
+from app.model.setup import MOST_SECONDS, Setup
 from app.text import told
 from tippe_core import TopError, strongest_friction
 
@@ -30,7 +29,7 @@ class Refusal:
     nearest: MappingProxyType[str, float] = field(default_factory=lambda: MappingProxyType({}))
 
 
-def refused(error: TopError, settings: Settings) -> tuple[dict[str, str], dict[str, float]]:
+def refused(error: TopError, settings: Setup) -> tuple[dict[str, str], dict[str, float]]:
     """(messages, nearest) of a Refusal for this error."""
     error = for_reader(error, settings.scales)
     name = CONTROL.get(error.name, error.name)
@@ -42,7 +41,7 @@ def refused(error: TopError, settings: Settings) -> tuple[dict[str, str], dict[s
     return {name: told(error)}, {} if near is None else {name: near}
 
 
-def _nearest(name: str, error: TopError, settings: Settings) -> float | None:
+def _nearest(name: str, error: TopError, settings: Setup) -> float | None:
     value = error.value
     if name == "mu_s":
         return max(settings.mu, LEAST["mu"])  # the sliding one, which it may not be below

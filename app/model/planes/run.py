@@ -1,4 +1,4 @@
-"""Computes the Picture of Settings: the same top on the three planes, and a second, slightly disturbed sliding run.
+"""Computes the Picture of Setup: the same top on the three planes, and a second, slightly disturbed sliding run.
 
 It runs in a thread, which has no page, so it is told in which language to say why there is no motion.
 """
@@ -6,11 +6,10 @@ It runs in a thread, which has no page, so it is told in which language to say w
 from types import MappingProxyType
 
 from app.model.motion import Progress, for_reader, slid
-from app.model.planes.picture import Picture, Settings
-from app.model.run import TableMotion, computed, watched
+from app.model.planes.picture import BY, SET, Picture
+from app.model.run import TableMotion, computed, watched, why_not
 from app.model.runs import look
-from app.model.setup import TABLES
-from app.text import say, told
+from app.model.setup import TABLES, Setup
 from tippe_core import (
     TopError,
     beside,
@@ -21,7 +20,7 @@ from tippe_core import (
 NUDGE, BESIDE = 1e-6, 3.0  # rad, s: the additional tilt of the disturbed run, and how long it continues after a touch
 
 
-def solve(settings: Settings, progress: Progress | None = None) -> Picture:
+def solve(settings: Setup, progress: Progress | None = None) -> Picture:
     """The Picture. progress: called with the fraction done; what it raises stops the run. Raises TopError, whose name
     is the input at fault."""
     top, state, times = settings.top, settings.state, settings.times
@@ -34,15 +33,11 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
         except TopError as error:
             if plane == "ordinary":
                 raise
-            motions[plane], messages[plane] = None, told(for_reader(error, settings.scales))
-        # the solver's error for numbers whose squares or reciprocals overflow
-        except (ValueError, ArithmeticError):
-            if plane == "ordinary":
-                raise
-            motions[plane], messages[plane] = None, say("planes.run.extreme")
+            motions[plane], messages[plane] = None, why_not(for_reader(error, settings.scales))
     return Picture(
         settings=settings, state=state, friction=settings.friction, motions=MappingProxyType(motions),
-        outcome=outcome(top, state), inputs=settings.inputs, messages=MappingProxyType(messages),
+        outcome=outcome(top, state), messages=MappingProxyType(messages),
+        inputs=MappingProxyType({name: getattr(settings, name) for name in SET} | {"by": BY[settings.rolling is None]}),
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from app.model.colours import COLOURS
 from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import LIFE, SPINS, Ends, ends_once, known_ends
 from app.model.runs import LATER, Run, Stopped
-from app.model.setup import toy_of
+from app.model.setup import start_of, toy_of
 from app.text import say, told, written
 from app.widgets.cards import words
 from app.widgets.failure import ended
@@ -58,22 +58,22 @@ class VerdictWords:
         shape = scene.shape
         if shape is None:
             return
-        self._ends(toy_of(shape, scene.top), TILT, MU)
+        self._ends(start_of(toy_of(shape, scene.top), 0.0, TILT, MU))
         if shape == self._shape:
             return
         self._shape = shape
         self.view.object = self._written("old")
         self._runs.begin(Run(lambda run: verdict(shape), partial(self._done, shape)), "verdict")
 
-    def _ends(self, *key):
+    def _ends(self, key):
         """How the runs at all spins end: stored, or computed in a thread; the same as in the Lab."""
         if key == self._asked:
             return
         self._asked = key
-        found = known_ends(*key)
+        found = known_ends(key)
         self.strip.object = strip_of(found)
         if found is None:
-            work = Run(lambda run: ends_once(*key, look=run.look), partial(self._ended, key))
+            work = Run(lambda run: ends_once(key, look=run.look), partial(self._ended, key))
             self._runs.begin(work, "verdict-ends", LATER)
 
     def _ended(self, key, result):

@@ -17,7 +17,7 @@ from app.bundle import Bundled, pack
 from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
 from app.model.lab.allowed import SHOWN
 from app.model.lab.lab import FIRST, Lab
-from app.model.setup import shape_of
+from app.model.setup import OF_LAW, shape_of
 from app.state import asked
 from app.text import listed, say, speaking, spoken
 from app.widgets.failure import after
@@ -25,8 +25,10 @@ from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import TopError
 
-INPUTS = ("spin", "tilt", "mu", "patch")
-SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2)}
+SLIDERS = {
+    "spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2), "mu_s": (0.01, 1, 0.01, 2),
+    "gamma": (0, 2, 0.01, 2), "eps": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2),
+}  # fmt: skip
 """{input: (least, most, step, decimals) of its slider}; values outside can be typed."""
 SOON = 0.05  # s: a run that is done sooner is not shown as under way
 LOOKS = 0.3  # s between two updates of the progress of a run
@@ -42,6 +44,11 @@ def dimensions(toy):
 def sizes(toy):
     """{input: its present value, in its unit}."""
     return {name: round(each.factor * value_of(shape_of(toy), each.name), 6) for name, each in dimensions(toy).items()}
+
+
+def inputs_of(law):
+    """The inputs with numbers that count with a law of friction."""
+    return ("spin", "tilt", *OF_LAW[law])
 
 
 def digits_of(dimension):
@@ -229,8 +236,8 @@ class LabTab:
         changes = {"state": json.dumps(self._state(scene), allow_nan=False)}
         if scene is not self._shown:
             self._shown = scene
-            changes |= {"told": json.dumps(self._told(scene), allow_nan=False), "profile": pack(scene.profile),
-                        "a": scene.a, "seconds": scene.seconds}  # fmt: skip
+            changes |= {"told": json.dumps(self._told(scene), allow_nan=False), "profile": pack(scene.start.profile),
+                        "a": scene.start.top.a, "seconds": scene.start.scales.time}  # fmt: skip
             for table, motion in scene.motions.items():
                 changes[f"frames_{table}"] = pack_frames(*motion.frames) if motion else b""
                 changes[f"curves_{table}"] = pack(motion.curves) if motion else b""
@@ -244,19 +251,17 @@ class LabTab:
         dims = dimensions(toy)
         return {
             "toy": toy if isinstance(toy, str) else "",
-            "values": {name: getattr(start, name) for name in INPUTS} | sizes(toy),
+            "values": {name: lab.value(name) for name in SLIDERS} | sizes(toy),
             "sliders": SLIDERS
             | {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()},
             "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
             "messages": messages,
-            "law": ""
-            if start.law == "contact"
-            else spelled(say("lab.inputs.law", law=listed("planes.law")[start.law])),
+            "law": self._law(start.law),
             "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
-            "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
-            "was": self._differ(scene, scene, start),
-            "wants": self._differ(start, scene, start),
+            "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), ""),
+            "was": self._differ(scene.start, self._lab.inputs[1]),
+            "wants": self._differ(self._lab.inputs[1], scene.start),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
             "answered": self._answered,
             "busy": lab.busy,
@@ -264,12 +269,16 @@ class LabTab:
         }
 
     def _told(self, scene):
-        view = listed("lab_view.view")
+        view, start, slides = listed("lab_view.view"), scene.start, scene.table in ("ordinary", "three")
+        law, numbers = start.law, [name for name in OF_LAW[start.law] if name != "mu"]
+        inputs = [view["inputs"][name] for name in numbers]
+        headline, why = scene.said
         return {
             "table": scene.table,
-            "rubs": [["patch", view["inputs"]["patch"]["typed"], "mm"]] if scene.table in ("ordinary", "three") else [],
+            "rubs": [[name, said["typed"], said["unit"]] for name, said in zip(numbers, inputs, strict=True)] * slides,
             "of": {
-                **{name: [getattr(scene, name), self._named(scene, name)] for name in INPUTS},
+                "law": [law, f"{view['law']}: {listed('planes.law')[law]}", f"{view['law']}:"],
+                **{name: [getattr(start, name), self._named(start, name)] for name in inputs_of(law)},
                 "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
                 if isinstance(scene.toy, str)
                 else [repr(scene.toy), say("main.own")],
@@ -280,7 +289,7 @@ class LabTab:
                 },
             },
             "runs": {table: self._run(scene, table) for table in scene.motions},
-            "said": list(map(spelled, scene.said)),
+            "said": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
             "R": 1e3 * shape_of(scene.toy).R,
             "whole": scene.whole,
         }
@@ -290,16 +299,23 @@ class LabTab:
         """A dimension with its value, in words."""
         return spelled(f"{_word(dimension)} {size:.{digits_of(dimension)}f} {dimension.unit}".strip())
 
-    def _differ(self, said, one, other):
+    @staticmethod
+    def _law(law):
+        """A remark on the law of friction, unless it is the usual one."""
+        return "" if law == "contact" else spelled(say(f"lab.laws.{law}"))
+
+    def _differ(self, one, other):
         """The inputs in which two starts differ, in words, with the values of `one`."""
-        return ", ".join(self._named(said, name) for name in INPUTS if getattr(one, name) != getattr(other, name))
+        names = (name for name in inputs_of(one.law) if getattr(one, name) != getattr(other, name))
+        law = [listed("planes.law")[one.law]] if one.law != other.law else []
+        return ", ".join([*law, *(self._named(one, name) for name in names)])
 
     @staticmethod
-    def _named(scene, name):
-        """An input of the scene with its value, in words."""
+    def _named(start, name):
+        """An input of a start with its value, in words."""
         said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
         gap = "" if said["unit"] in ("", "°") else " "
-        number = f"{getattr(scene, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")
+        number = f"{getattr(start, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")
         return spelled(f"{said['name']} {number}{gap}{said['unit']}")
 
     @staticmethod

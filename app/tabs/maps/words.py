@@ -26,6 +26,7 @@ def colours_say(level, colour):
     said = [f"<h2>{say('maps.colours_say')}</h2>"]
     if colour == "end":
         named = listed("maps.ends")
+        said.append(f"{say('maps.after', seconds=level.asked.seconds)} ")
         said += [
             _patch(f"background: {ends.COLOUR[end]}", named[end]) for end in ends.NAMES if (level.end == end).any()
         ]
@@ -48,7 +49,7 @@ def colours_say(level, colour):
 def of_run(asked, across, up, found):
     """What happened in one run."""
     says = say("maps.run.says", across=_measured(across, asked.across), up=_measured(up, asked.up),
-               end=listed("maps.ends")[found.end])  # fmt: skip
+               seconds=asked.seconds, end=listed("maps.ends")[found.end])  # fmt: skip
     times = [say("maps.run.passes", time=found.time_90) if np.isfinite(found.time_90) else say("maps.run.never")]
     if np.isfinite(found.time_stem):
         times.append(say("maps.run.stem", time=found.time_stem))

@@ -92,7 +92,7 @@ function changes(one, other) {
   const found = Object.keys(b).filter((name) => a[name]?.[0] !== b[name][0]), sizes = found.filter((name) => name.startsWith(SIZE));
   // a body of another kind has other dimensions
   const isOther = sizes.some((name) => !a[name]) || Object.keys(a).some((name) => !b[name]) || sizes.length > 1;
-  return found.filter((name) => (isOther ? !name.startsWith(SIZE) : name !== "toy" || !sizes.length));
+  return found.filter((name) => a[name] && (isOther ? !name.startsWith(SIZE) : name !== "toy" || !sizes.length));
 }
 
 /** @param {any} before @param {number} t @param {number} column */
