@@ -64,8 +64,17 @@ for line in sys.stdin:
 """
 
 
+LAWS = "law=coulomb", "law=viscous&gamma=.5", "law=smoothed"
+
+
+def starts_of_laws(n, seed):
+    """The same with each of the laws of friction at a point."""
+    for i, (name, query) in enumerate(starts(n, seed)):
+        yield name, f"{query.replace('v=2', 'v=3')}&{LAWS[i % len(LAWS)]}"
+
+
 def starts(n, seed):
-    """[(preset, query)]: n random starts."""
+    """[(preset, query)]: n random starts on a real contact."""
     random = np.random.default_rng(seed)
     for _ in range(n):
         name = str(random.choice(list(BODIES)))
@@ -97,7 +106,7 @@ def faults(told, stemless=False):
         for text, phase, whole in texts(run, table):
             said = Said(text, run, phase, runs, stemless, whole)
             bad += [(kind, name, why) for kind, why in story_words.faults(said)]
-        given = runs.get("ordinary", run)
+        given = runs.get("ordinary") or runs.get("ice", run)  # no table but the rough one grips
         bad += [(kind, name, why) for kind, why in story_kept.faults(run, rows(table["kept"]), given)]
     for text in told.get("said", ()) if runs else ():
         run = next(iter(runs.values()))

@@ -11,7 +11,7 @@ KEPT, QUARTER, LITTLE = 2e-3, 0.25, 1e-4
 
 
 def faults(run, rows, given):
-    """[(kind, why)] of rows {quantity: text}. given: the Run on the ordinary table, which starts as it was let go."""
+    """[(kind, why)] of rows {quantity: text}. given: a Run that no table grips, which starts as it was let go."""
     bad = []
     for quantity, text in rows.items():
         if minus_zero_in(text):

@@ -138,6 +138,12 @@ def test_a_law_is_undone():
         assert house.lab_of.scene.start.law == "contact"
 
 
+def test_a_place_on_a_map_is_watched_with_the_contact_of_the_map():
+    with visitor("?v=3&law=viscous&gamma=.7&patch=2") as (house, _):
+        house._throw("Top S", 20.0, 10.0, 0.25, False)
+        assert house.explorer.setup.friction == Contensou(0.25, 0.5 / 20)
+
+
 @pytest.mark.parametrize(("law", "inputs"), [
     ("contact", ["patch"]), ("coulomb", ["mu_s"]), ("viscous", ["gamma"]), ("smoothed", ["eps"]),
 ])  # fmt: skip

@@ -2,7 +2,7 @@
 
 import pytest
 import story_checker
-from story_checker import BODIES, STEMLESS, faults, starts, told_by
+from story_checker import BODIES, STEMLESS, faults, starts, starts_of_laws, told_by
 
 from app.model import run, tell
 from app.model.setup import start_of
@@ -44,8 +44,9 @@ def test_a_life_that_takes_too_long_on_the_ordinary_table_is_no_reason_elsewhere
 
 
 @pytest.mark.long
-def test_nothing_false_is_said_of_a_hundred_starts():
-    drawn, false, failed = list(starts(100, 51)), [], []
+@pytest.mark.parametrize("drawn", [starts(100, 51), starts_of_laws(60, 51)], ids=["contact", "point"])
+def test_nothing_false_is_said_of_random_starts(drawn):
+    drawn, false, failed = list(drawn), [], []
     for (preset, query), found in zip(drawn, told_by(query for _, query in drawn), strict=True):
         if "error" not in found:
             false += [(query, *fault) for fault in faults(found, preset in STEMLESS)]
