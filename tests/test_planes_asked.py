@@ -71,7 +71,7 @@ def test_a_run_that_can_go_no_further_shows_what_was_computed_and_says_why(usual
     motion = picture.motions["ordinary"]
     last = motion.trajectory.events[-1][0] * picture.settings.scales.time
     assert not picture.messages and 0.1 < last < 59 and motion.t[-1] > motion.trajectory.t[-1]
-    assert f"At {last:.2f} s it has turned so often" in said
+    assert f"At {last:.2f} s it takes more steps than one run may compute" in said
     with speaking("de"):
         _, said = ran(usual, law="coulomb", mu=1.0, mu_s=1.0, rolling=pushed)
     assert "Grenze nach Painlevé" in said

@@ -164,12 +164,12 @@ def test_what_a_hand_waits_for_does_not_wait_for_the_rest_of_other_runs(page):
     lab.ask(spin=33.0, tilt=12.0)
     lab.rest()
     page.next()
-    assert lab.scene.spin == 33.0 and not (lab.scene.whole or lab.busy)
+    assert lab.scene.start.spin == 33.0 and not (lab.scene.whole or lab.busy)
     assert LATER.waiting() == 3  # including the rest of this run, and the ends for all spins
     go.set()
     while not (lab.scene.whole and lab.ends):
         page.next()
-    assert lab.scene.spin == 33.0 and not places
+    assert lab.scene.start.spin == 33.0 and not places
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a thread has no priority of its own here")

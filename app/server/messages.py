@@ -166,7 +166,8 @@ CHANGES = {
     "Switch": {"value": FLAG},
     "TextInput": {"value": TYPED, "value_input": TYPED},
     # ours
-    "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT},
+    "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT,
+                "visited": row(COUNT, SHORT)},
     "Connection": {},
     "Copy": {},
     "Download": {"clicks": COUNT},

@@ -20,7 +20,7 @@ export const style = `
 .labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
 .labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent, ${colours.chosen});
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
-.labels .handle::before { content: ""; position: absolute; inset: -24px; border-radius: 50%; } /* reached without aiming */
+@media (hover: hover) { .labels .handle::before { content: ""; position: absolute; inset: -24px; border-radius: 50%; } } /* reached without aiming */
 .labels .handle.moves:not(:hover, :focus-visible, :active) { opacity: 0; }
 .labels .handle:active { cursor: grabbing; }
 .labels .handle:active::after { content: attr(data-said); position: absolute; left: 28px; top: -16px; padding: 2px 8px; border-radius: 999px;
