@@ -272,7 +272,10 @@ def test_what_was_open_is_opened_again_and_nothing_else_changes():
     assert len({lab, before, keep.where}) == 3
     keep.visit(before)
     assert (rooms.room, learn.step, keep.where) == ("learn", "flips", before)
-    keep.visit("tab=nowhere&level=explore&step=way&KJ=3")
+    rooms.level = "research"
+    keep.visit(before)
+    assert rooms.level == "explore"
+    keep.visit("?v=3&tab=nowhere&level=explore&step=way&KJ=3")
     assert (rooms.room, rooms.level, learn.step, explorer.K_J) == ("learn", "explore", "way", 6.0)
 
 

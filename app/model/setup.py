@@ -1,6 +1,6 @@
 """What a run starts from: a body on the tables, how it is let go, and the friction of the ordinary table."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TypeAlias
@@ -184,6 +184,12 @@ def start_of(
     shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
     return Setup(top=top, scales=shape.scales, shape=shape, spin=spin, tilt=tilt, rolling=rolling, mu=mu, mu_s=mu,
                  patch=patch)  # fmt: skip
+
+
+def in_lab(start: Setup) -> Setup:
+    """A start as it is run in the Lab: its stem takes part, it lands where it hops, and it goes on to the end of its
+    life."""
+    return replace(start, landing="plastic", stem=True, seconds=SECONDS, most_turn=0.5)
 
 
 def shape_of(toy: Toy) -> Shape:

@@ -220,8 +220,7 @@ class Keep(param.Parameterized):
 
     def visit(self, where):
         """Opens what was open before, given as `where`; what cannot be read opens the default."""
-        texts = read(f"{VERSION_NAME}={VERSION}&{where}")[0]
-        waiting = {key: text for key, text in texts.items() if key in NAMES and NAMES[key].where}
+        waiting = {key: text for key, text in read(where)[0].items() if key in NAMES and NAMES[key].where}
         for part in self._parts:
             known = {parameter: name for parameter, name in part.known.items() if name.where}
             found = values(waiting, known)[0]
@@ -251,10 +250,12 @@ class Keep(param.Parameterized):
                 if not same(value, first[name])
             }
         texts |= self._texts
-        self.where = query({key: texts[key] for key in sorted(texts) if key in NAMES and NAMES[key].where})
+        version = {VERSION_NAME: str(VERSION)}
+        where = {key: texts[key] for key in sorted(texts) if key in NAMES and NAMES[key].where}
         texts = self._shortest(texts)
         self.param.update(
-            query=query({VERSION_NAME: str(VERSION)} | texts) if texts else "",
+            where=query(version | where),
+            query=query(version | texts) if texts else "",
             can_undo=self._at > 0,
             can_redo=self._at < len(self._steps) - 1,
         )

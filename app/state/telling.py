@@ -1,6 +1,7 @@
 """What the page says of a link."""
 
-from app.model.lab.lab import in_lab, scene_of
+from app.model.lab.lab import scene_of
+from app.model.setup import in_lab
 from app.model.telling import told
 from app.state.keep import explorer_of, read
 from app.state.names import LEVELS

@@ -53,21 +53,18 @@ export function renderFirst({ model, el, view }) {
   el.replaceChildren(...was.el.childNodes);
   view.tippe = was.view.tippe;
   become(model);
-  if (focused instanceof HTMLElement) focusAgain(focused);
-  whenHeard(() => view.tippe?.hold?.(false));
+  if (focused instanceof HTMLElement) {
+    once(() => focused.isConnected, () => {
+      if (document.activeElement === document.body) focused.focus({ preventScroll: true }); // unless it went elsewhere
+    });
+  }
+  // If the server hears something before the page has reported that it is complete, it answers only after the next
+  // message.
+  once(() => Bokeh.documents.some((doc) => doc.is_idle), () => view.tippe?.hold?.(false));
 }
 
-// Who was typing types on.
-/** @param {HTMLElement} element */
-function focusAgain(element) {
-  if (document.activeElement !== document.body) return; // went elsewhere meanwhile
-  if (element.isConnected) element.focus({ preventScroll: true });
-  else setTimeout(() => focusAgain(element), SOON);
-}
-
-// If the server hears something before the page has reported that it is complete, it answers only after the next
-// message.
-function whenHeard(run) {
-  if (Bokeh.documents.some((doc) => doc.is_idle)) run();
-  else setTimeout(() => whenHeard(run), SOON);
+/** @param {() => boolean} ready @param {() => void} run */
+function once(ready, run) {
+  if (ready()) run();
+  else setTimeout(() => once(ready, run), SOON);
 }

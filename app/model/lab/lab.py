@@ -18,7 +18,7 @@ from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
 from app.model.lab.ends import Ends, ends_once, known_ends, of_spins
 from app.model.run import SHIPS, TableMotion, TooLong, motion_on, whole_on, why_not
 from app.model.runs import LATER, Result, Run, Runs, Stopped
-from app.model.setup import OF_LAW, SECONDS, TABLES, Setup, Toy
+from app.model.setup import OF_LAW, TABLES, Setup, Toy, in_lab
 from app.model.start import NUMBERS, Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, of_all, story
 from app.text import say
@@ -103,11 +103,6 @@ def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
         turning=while_it_turns(found["ordinary"]) if "ordinary" in found else None,
         whole=whole or (table != "three" and all(motion.whole for motion in found.values())),
     )  # fmt: skip
-
-
-def in_lab(start: Setup) -> Setup:
-    """A start as it is run here: its stem takes part, it lands where it hops, and it goes on to the end of its life."""
-    return replace(start, landing="plastic", stem=True, seconds=SECONDS, most_turn=0.5)
 
 
 def _sentence(error: TopError) -> str:

@@ -45,6 +45,7 @@ export class Handle {
     this.wanted = new Vector3();
     this.t = this.theta = this.reach = 0;
     this.held = this.asked = false;
+    this.tilt = ""; // as it was written last
     this.label = labels.add("", "handle");
     const { element } = this.label;
     element.tabIndex = 0;
@@ -143,7 +144,10 @@ export class Handle {
     this.theta = theta;
     this.reach = (body.top ?? 1) + BEYOND;
     this.label.at.copy(this.axis).multiplyScalar(this.reach).add(this.from);
-    element.setAttribute("aria-valuenow", this.said(this.theta));
-    element.dataset.said = this.model.degrees ? `${this.said(this.theta)}°` : this.said(this.theta);
+    const said = this.said(theta);
+    if (said === this.tilt) return; // nothing to write in most frames
+    this.tilt = said;
+    element.setAttribute("aria-valuenow", said);
+    element.dataset.said = this.model.degrees ? `${said}°` : said;
   }
 }
