@@ -1,4 +1,4 @@
-"""How the rolling top is played and viewed: what a link stores of it, whichever view shows it."""
+"""How the top on the Lab's stage is played and viewed: what a link stores of it."""
 
 from functools import partial
 
@@ -10,7 +10,7 @@ class Playing(param.Parameterized):
 
     time = param.Number(default=0.0, doc="its time, in (R/g)^1/2, when it was last set by hand")
     playing = param.Boolean(default=True, doc="whether it plays")
-    speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is that of the real top")
+    speed = param.Number(default=0.0, bounds=(0, None), doc="1 is that of the real top; 0: as fits its events")
     camera = param.List(default=[], doc="azimuth, height and distance of the chosen view; empty: the first one")
     show_track = param.Boolean(default=True)
     show_com_path = param.Boolean(default=True)

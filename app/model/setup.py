@@ -1,6 +1,6 @@
 """What a run starts from: a body on the tables, how it is let go, and the friction of the ordinary table."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
 from typing import TypeAlias
@@ -35,9 +35,8 @@ TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for 
 PATCH = 0.5  # mm: the default radius of the contact patch
 
 SECONDS, MOST_SECONDS = 6.0, 60.0
-# A frame turns the top by at most most_turn rad (at the level "Research" MOST_TURN), or FARTHEST_TURN if that would
-# take more than MOST_FRAMES.
-MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
+# A frame turns the top by at most MOST_TURN rad, or FARTHEST_TURN if that would take more than MOST_FRAMES.
+MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.5, 16_000, 1.0
 LEAST_FRAMES = 600
 
 Toy: TypeAlias = str | Shape
@@ -50,7 +49,7 @@ class Setup:
 
     shape: None if a, I1 and I3 are not those of the body. Let go by a hand with spin (rev/s), tilt (degrees) and slip
     as in by_hand(), or as the State `rolling`. law: one of OF_LAW, with its numbers: mu, mu_s, gamma and eps in R, M
-    and g, patch in mm. seconds: how long a run is; most_turn: rad from a frame to the next.
+    and g, patch in mm. seconds: how long a run is.
     """
 
     top: Top
@@ -69,14 +68,13 @@ class Setup:
     landing: str = "plastic"
     stem: bool = True
     seconds: float = SECONDS
-    most_turn: float = 0.5
 
     @cached_property
     def _key(self) -> tuple[object, ...]:
         let_go = (self.spin, self.tilt, self.slip) if self.rolling is None else self.rolling
         numbers = tuple(getattr(self, name) for name in OF_LAW[self.law])
-        return (self.top, self.scales, self.shape, let_go, self.law, numbers, self.landing, self.stem, self.seconds,
-                self.most_turn)  # fmt: skip
+        run = self.landing, self.stem, self.seconds
+        return self.top, self.scales, self.shape, let_go, self.law, numbers, *run
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Setup) and self._key == other._key
@@ -161,7 +159,7 @@ class Setup:
             most = FARTHEST_TURN * MOST_FRAMES / fastest * self.scales.time
             raise TopError("seconds", self.seconds, "at most {most:.3g} s with this spin",
                            "More turns than that are too many to show.", code="too-many-turns", most=most)  # fmt: skip
-        frames = np.clip(np.ceil(end * fastest / self.most_turn), LEAST_FRAMES, MOST_FRAMES)
+        frames = np.clip(np.ceil(end * fastest / MOST_TURN), LEAST_FRAMES, MOST_FRAMES)
         return np.linspace(0, end, int(frames) + 1)
 
 
@@ -184,12 +182,6 @@ def start_of(
     shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
     return Setup(top=top, scales=shape.scales, shape=shape, spin=spin, tilt=tilt, rolling=rolling, mu=mu, mu_s=mu,
                  patch=patch)  # fmt: skip
-
-
-def in_lab(start: Setup) -> Setup:
-    """A start as it is run in the Lab: its stem takes part, it lands where it hops, and it goes on to the end of its
-    life."""
-    return replace(start, landing="plastic", stem=True, seconds=SECONDS, most_turn=0.5)
 
 
 def shape_of(toy: Toy) -> Shape:

@@ -13,7 +13,7 @@ import param
 
 from app.model import arrival
 from app.model.bodies import fits
-from app.model.setup import LAWS, MOST_TURN, OF_LAW, PATCH, TOYS, Setup, Toy, by_hand, toy_of
+from app.model.setup import LAWS, OF_LAW, PATCH, TOYS, Setup, Toy, by_hand, toy_of
 from app.model.setup import TABLES as EACH
 from tippe_core import Shape, State, Top, TopError, TruncatedSphere
 from tippe_core.paper.equations import rolling_velocity
@@ -68,7 +68,6 @@ class Start(param.Parameterized):
         default="plastic", objects=["stop", "plastic"], doc="what happens after it lifts off"
     )
     stem = param.Boolean(True, doc="whether the stem can touch the table")
-    seconds = param.Number(5.0, doc="the computed time, s of the real top")
 
     GIVEN = MappingProxyType(
         {
@@ -111,10 +110,10 @@ class Start(param.Parameterized):
     def setup(self) -> Setup:
         """All that its runs depend on; raises TopError if no top has these a, I1 and I3."""
         top, shape = Top(self.a, self.I1, self.I3), self.shape
-        names = ("spin", "tilt", "slip", "law", "mu", "gamma", "eps", "patch", "landing", "stem", "seconds")
+        names = ("spin", "tilt", "slip", "law", "mu", "gamma", "eps", "patch", "landing", "stem")
         return Setup(
             top=top, scales=shape.scales, shape=shape if fits(shape, top) else None, mu_s=self.static,
-            rolling=None if self.given == "hand" else self.let_go, most_turn=MOST_TURN,
+            rolling=None if self.given == "hand" else self.let_go,
             **{name: getattr(self, name) for name in names},
         )  # fmt: skip
 

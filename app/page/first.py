@@ -27,7 +27,6 @@ from app.bundle import Bundled, inlined
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state import opened as room
-from app.state.keep import VERSION
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 from app.widgets.theme import FAMILY
@@ -52,7 +51,7 @@ def arrival():
     lab = Lab()
     lab.show()
     lab.rest()
-    return LabTab(lab, None, None).view
+    return LabTab(lab, None).view
 
 
 def written(view):
@@ -84,7 +83,7 @@ def searches():
     for tab in ({}, {names.TAB: room.FIRST}):
         for language in ("", *LANGUAGES):
             asked = tab | ({names.LANGUAGE: language} if language else {})
-            versions = ({}, {names.VERSION_NAME: str(VERSION)})
+            versions = ({}, {names.VERSION_NAME: str(names.VERSION)})
             found |= {names.query(more | asked) if more | asked else "": language for more in versions}
     return found
 

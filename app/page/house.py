@@ -7,26 +7,23 @@ import panel_material_ui as pmui
 
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
-from app.model.planes.planes import Planes
-from app.model.playing import Playing
+from app.model.playing import Playing, together
 from app.model.runs import Runs, connected_to, to_session
 from app.model.setup import PATCH
 from app.share.saved_runs import Shown
 from app.state import opened as room
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
-from app.state.start import OneStart
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
 from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
 from app.tabs.lab.lab import lab_view
+from app.tabs.lab.research import Research
 from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
-from app.tabs.planes.three_planes import ThreePlanes
-from app.tabs.roll.roll import Roll
 from app.text import say
 from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
@@ -34,19 +31,18 @@ from app.widgets.failure import attempt, full, waits
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D, show_top
 
-
-def alike(*rooms):
-    """The levels of a tab that has the same rooms at each level."""
-    return dict.fromkeys(LEVELS, rooms)
-
-
-TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"), "maps": alike("families", "maps"),
-        "measure": alike("measure")}  # fmt: skip
-"""{tab: {level: names of its rooms in an address}}, in the order of the head."""
+TABS = {"learn": ("learn",), "lab": (room.FIRST,), "build": ("build-a-top",), "maps": ("families", "maps"),
+        "measure": ("measure",)}  # fmt: skip
+"""{tab: names of its rooms in an address}, in the order of the head."""
 
 
 # Only the top that is being built, because whatever moves beside it belongs to the Lab.
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
+BESIDE = """
+:host { min-height: max-content } .scroll-button { display: none !important }
+@media (min-width: 1000px) { :host { display: grid; align-items: start; grid-template-columns: var(--columns) } }
+"""
+COLUMNS = {True: "minmax(0, 57fr) minmax(0, 43fr)", False: "minmax(0, 1fr)"}
 DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
 WHY = {"section": "lesson", "step": "arms"}  # why rubbing lifts a top
@@ -58,27 +54,24 @@ class House:
     """Everything that the views share: the Explorer, which solves; the Pacer, which takes requests and shows scenes;
     the Builder of bodies; the Lab; the playback; the Keep; and the Runs.
 
-    look_at(name) shows a room, and level is how much the page shows; the page sets both, and `told`, which is called
-    when runs_shown() may have changed, and `rests`, when a hand does, which may still be down.
+    look_at(room=name, level=name) shows a room at a level; level is the present one. The page sets both, and
+    `told`, which is called when runs_shown() may have changed, and `rests`, when a hand does, which may still be down.
     """
 
     def __init__(self, texts, sentence, look_at, level):
         self._level, self._shows_level = level, []
-        self.explorer, wrong = explorer_of(texts, self._explores())
+        self.explorer, wrong = explorer_of(texts)
         self.pacer = Pacer(self.explorer)
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
         self.pacer.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
         self._learn, self._place = None, {}
-        self.keep = kept(
-            self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
-        )
+        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=room.shortest)
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
         self.told, self.rests = lambda: None, self.keep.at_rest
         self.lab_of = Lab(self.runs, self.explorer)
         self.lab_of.param.watch(lambda *events: self.told(), ["scene", "busy"])
-        self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
 
@@ -119,23 +112,44 @@ class House:
     # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
-        figures = lambda: self._look_at(self.start.table("rough"))  # noqa: E731  (the paper's are of that table)
-        return lab_view(self.lab_of, lambda: self.rests(), figures, lambda: self._explain(**WHY))
+        """The stage and all about it, and beside it, once it is opened, the research."""
+        tab = lab_view(self.lab_of, lambda: self.rests(), research=lambda: self._look_at(level=LEVELS[1]),
+                       why=lambda: self._explain(**WHY), why_not=lambda: self._explain(**WHY_NOT))  # fmt: skip
+        together(self.playing, tab.view)
+        view = pn.Column(tab.view, sizing_mode="stretch_width", margin=0, stylesheets=[BESIDE])
+        research = []
+
+        def show(*events):
+            if not self._explores() and not research:
+                research.append(self._research())
+                view.append(research[0].view)
+            tab.view.level = self._level
+            for each in research:
+                each.view.visible = not self._explores()
+                each.open = not self._explores()
+            is_beside = not self._explores() and self.explorer.table != "three"
+            view.styles = {"--columns": COLUMNS[is_beside]}
+
+        self._at_levels(lambda explores: show())
+        self.explorer.param.watch(show, "table")
+        return view
+
+    def _research(self):
+        controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
+        self.keep.add(controls)
+        for show_scene, when in ((controls.follow, "hand"), (controls.show, "rest")):
+            self.pacer.shows(show_scene, when)
+        found = Research(self.pacer, self.lab_of, self.runs, controls.card(), self.builder.choose)
+        self.keep.add(found)
+        found.param.watch(lambda event: self.keep.at_rest(), "panel")
+        return found
 
     def _explain(self, **place):
         """Shows this place of Learn."""
         self._place = place
         if self._learn is not None:
             self._learn.param.update(**place)
-        self._look_at("learn")
-
-    def roll(self):
-        controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
-        self.keep.add(controls)
-        for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
-            self.pacer.shows(show, when)
-        slip = lambda: self._look_at(self.start.table("ordinary"))  # noqa: E731
-        return Roll(self.pacer, self.playing, controls.card(), slip, self.runs).main
+        self._look_at(room="learn")
 
     def _leads_on(self, says, goes, **layout):
         """A button that leads to another room."""
@@ -163,26 +177,7 @@ class House:
 
     def _spin(self):
         self.lab_of.ask(table="ordinary")
-        self._look_at(room.FIRST)
-
-    def planes(self):
-        planes = Planes(self.explorer, self.runs)
-        self.start.have(planes)
-        inputs = {"plane": planes.plane} | planes.inputs
-        view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes,
-                           self.playing, lambda: self._explain(**WHY_NOT))  # fmt: skip
-        planes.param.watch(lambda event: view.show(event.new), "picture")
-        planes.param.watch(lambda event: view.refuse(event.new), "refusal")
-        self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
-        planes.param.watch(lambda event: view.wait(), "busy")
-        planes.param.watch(lambda *events: self.told(), ["picture", "busy"])
-        planes.show()
-        if planes.picture is not None:
-            view.show(planes.picture)
-        view.refuse(planes.refusal)
-        view.wait()
-        self.pacer.shows(planes.follow, "rest")
-        return view.main
+        self._look_at(room=room.FIRST)
 
     def families(self):
         tops, compare = (
@@ -202,14 +197,14 @@ class House:
     def _use(self, name):
         """Shows a known top in the Lab, and so everywhere."""
         self.lab_of.ask(toy=name)
-        self._look_at("lab")
+        self._look_at(room="lab")
 
     def _change(self, name):
         self.builder.choose(name)
-        self._look_at("build-a-top")
+        self._look_at(room="build-a-top")
 
     def learn(self):
-        self._learn = learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
+        self._learn = learn = Learn(self.scene, self.runs, lambda: self._look_at(room=room.FIRST))
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
         learn.param.update(**self._place)
@@ -227,7 +222,7 @@ class House:
         table = {"table": "ordinary"} if look else {}  # that of the map
         self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, law="contact", patch=PATCH, **table)  # as of the map
         if look:
-            self._look_at("lab")
+            self._look_at(room="lab")
 
     def measure(self):
         measure = Measure(self.scene, self.runs)
@@ -235,13 +230,24 @@ class House:
         self.pacer.shows(measure.show, "hand")
         return measure.view
 
+    def moved(self, looked_at):
+        """To be called when the page shows a room."""
+        self.explorer.settle()
+        if self.lab_of.begun:
+            (self.lab_of.show if looked_at == room.FIRST else self.lab_of.hide)()
+
+    def busy(self, looked_at):
+        """Whether this room is about to show other runs."""
+        return looked_at == room.FIRST and self.lab_of.busy
+
     def runs_shown(self, looked_at):
         """The runs on the tables that this room shows, as saved_runs.Shown."""
-        found = {room.FIRST: self.start.lab_runs, room.PLANES: self.start.planes_runs}.get(looked_at, list)()
-        return [Shown(table, motion.trajectory, setup) for table, motion, setup in found]
+        scene = self.lab_of.scene if looked_at == room.FIRST else None
+        motions = scene.motions if scene else {}
+        return [Shown(table, motion.trajectory, motion.start) for table, motion in motions.items() if motion]
 
     @property
     def makers(self):
         """{name of a room in the address: the function that creates it}."""
-        made = (self.lab, self.roll, self.planes, self.build, self.families, self.learn, self.maps, self.measure)
+        made = (self.lab, self.build, self.families, self.learn, self.maps, self.measure)
         return dict(zip(ROOMS, made, strict=True))

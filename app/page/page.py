@@ -30,6 +30,7 @@ from app.widgets.theme import HEADLESS, STYLE, THEME
 
 SPEAKS = WeakKeyDictionary()  # document -> its language
 text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc else text.DEFAULT)
+TOUR = room.FIRST, LEVELS[1]
 BARE = {"theme_toggle": False, "busy_indicator": None}
 
 
@@ -50,31 +51,28 @@ def page():
     if VOTE in texts:  # the link of a student
         return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), look, failed],
                          stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
-    house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts))
+    house = House(texts, sentence, lambda **where: rooms.param.update(**where), room.level(texts))
     pacer, keep = house.pacer, house.keep
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
-                  lambda: house.start.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
+                  lambda: house.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
                   worksheet)  # fmt: skip
     house.told, house.rests = share.refresh, lambda: keep.at_rest(share.address.gesture)
     for owner in (look, tongue):
         keep.add(owner)
     for show in (share.show, guide.show):
         pacer.shows(show, "rest")
-    rooms = Rooms(house.makers, TABS, keep, pacer.now, room.AT_ONCE, room.opened(texts), room.USUAL,
+    rooms = Rooms(house.makers, TABS, LEVELS, keep, pacer.now, room.AT_ONCE, room.opened(texts), room.FIRST,
                   house.level)  # fmt: skip
     rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
-    rooms.param.watch(lambda event: house.start.moved(event.new), "room")
-    house.level = rooms.level
-    house.start.moved(rooms.room)
-    if rooms.room not in room.VIEWS[LEVELS[1]]:
-        rooms.turn(house.start.room)
-    house.explorer.param.watch(lambda event: rooms.turn(house.start.room), "table")
-    head = HeadBar(rooms, keep, look, chosen(rooms, house, tongue, share), room.USUAL)
+    rooms.param.watch(lambda event: house.moved(event.new), "room")
+    house.moved(rooms.room)
+    head = HeadBar(rooms, keep, look, chosen(rooms, house, tongue, share), TOUR)
     share.param.watch(lambda event: head.opened(event.new), "is_open")
     tells(head, rooms, house)
-    rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
-    guide.tour = rooms.room == room.USUAL
+    toured = lambda *events: setattr(guide, "tour", (rooms.room, rooms.level) == TOUR)  # noqa: E731
+    rooms.param.watch(toured, ["room", "level"])
+    toured()
     pn.state.curdoc.template_variables.update(first.variables(text.spoken()))
     unseen = {"width": 0, "height": 0, "margin": 0}
     lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
@@ -87,27 +85,21 @@ def page():
 def chosen(rooms, house, tongue, share):
     """The functions that the head calls for what is chosen in it."""
 
-    def table(name):
-        rooms.room = house.start.table(name)
-
     def language(name):
         tongue.lang = name
         share.reload()
 
-    return choices.asks(
-        toy=lambda name: house.take(name, rooms.room), table=table, language=language, share=share.toggle
-    )
+    return choices.asks(toy=lambda name: house.take(name, rooms.room), language=language, share=share.toggle)
 
 
 def tells(head, rooms, house):
-    """Keeps the head informed of the present top and table."""
+    """Keeps the head informed of the present top."""
 
     def tell(*events):
         head.tops(*choices.tops(house.toy(rooms.room)))
-        head.tables(*choices.tables(rooms.room, house.explorer.table))
 
     rooms.param.watch(tell, "room")
-    house.explorer.param.watch(tell, ["shape", "a", "I1", "I3", "table"])
+    house.explorer.param.watch(tell, ["shape", "a", "I1", "I3"])
     house.builder.param.watch(tell, "draft")
     tell()
 

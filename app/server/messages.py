@@ -180,7 +180,7 @@ CHANGES = {
     "Guide": {},
     "LessonView": {"asked": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
     "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
-    "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
+    "LabView": PICTURE | {"asked": row(COUNT, SHORT, NUMBER | SHORT | FLAG)},
     "Look": {"dark": FLAG, "large": FLAG},
     "Near": {"near": FLAG},
     "Painted": {"painted": COUNT},

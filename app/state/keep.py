@@ -1,7 +1,7 @@
 """The state of the page as the query of its address, and undo and redo.
 
 names.py says which name stores what. A query contains only what differs from the default, every number to the last
-digit: ?v=3&KJ=6.7&mu=.3. It may come from anyone, so it is checked.
+digit: ?v=4&KJ=6.7&mu=.3. It may come from anyone, so it is checked.
 """
 
 from dataclasses import dataclass
@@ -15,13 +15,10 @@ from app.model.explorer import Explorer
 from app.model.start import arrives
 from app.state import asked, older
 from app.state.codecs import Body, Number
-from app.state.names import NAMES, ROLLING, SECRET, VERSION_NAME, of, query
-from app.state.opened import opened
+from app.state.names import NAMES, SECRET, VERSION, VERSION_NAME, of, query
 from app.text import say, told
 from tippe_core import TopError
 
-# The defaults belong to a version: if they or the meaning of a name change, this becomes 4.
-VERSION = 3
 LONGEST_QUERY = 12_000  # characters; the body with the most points that can be built needs fewer
 MOST_NAMES = 60
 STEPS = 100
@@ -35,16 +32,18 @@ def read(query):
     is not valid. Never raises."""
     query = query.removeprefix("?")
     if len(query) > LONGEST_QUERY:
-        return older.third({}), say("share.link.too_long", letters=len(query))
+        return {}, say("share.link.too_long", letters=len(query))
     try:
         texts = dict(parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_NAMES))
     except ValueError:
-        return older.third({}), say("share.link.too_many")
+        return {}, say("share.link.too_many")
     version = texts.pop(VERSION_NAME, str(VERSION) if _is_look(texts) else "1")
     if version == "1":
         texts = older.second(texts)
     if version in ("1", "2"):
-        return older.third(texts), ""
+        texts = older.third(texts)
+    if version in ("1", "2", "3"):
+        return older.fourth(texts), ""
     return texts, "" if version == str(VERSION) else say("share.link.newer")
 
 
@@ -83,11 +82,10 @@ def inputs_of(texts):
     return inputs, sentence
 
 
-def explorer_of(texts, explores=False):
-    """(Explorer, sentence): the start in texts, or the default one of this level if it is impossible; an address of
-    what rolls is one of the rough table. Never raises."""
+def explorer_of(texts):
+    """(Explorer, sentence): the start in texts, or that of the arrival if it is impossible. Never raises."""
     inputs, sentence = inputs_of(texts)
-    first = arrives() if explores else {"table": "rough"} if opened(texts) == ROLLING else {}
+    first = arrives()
     try:
         return Explorer(**first | inputs), sentence
     # the solver's error for numbers whose squares or reciprocals overflow
@@ -96,21 +94,20 @@ def explorer_of(texts, explores=False):
         return Explorer(**first), say("share.link.impossible", why=why)
 
 
-def kept(explorer, texts=None, sentence="", explores=lambda: False, **more):
-    """The Keep of a page with this Explorer, which the link has already set. explores(): whether the page is at the
-    level "Explore". A start by hand is stored even if its rolling motion cannot be computed."""
+def kept(explorer, texts=None, sentence="", **more):
+    """The Keep of a page with this Explorer, which the link has already set. A start by hand is stored even if its
+    rolling motion cannot be computed."""
     keep = Keep(texts, sentence, allowed=lambda: explorer.given == "hand" or not explorer.scene.messages, **more)
-    keep.add(explorer, lambda explorer: usual(explorer, explores()), opened=True)
+    keep.add(explorer, usual, opened=True)
     return keep
 
 
-def usual(explorer, explores=False):
+def usual(explorer):
     """{parameter: value} of an Explorer if a query does not mention it; only the inputs by which the start is given,
     and the body."""
     names = [name for name in EXPLORER if name not in FOLLOWING or name in Explorer.GIVEN[explorer.given]]
     first = {name: Explorer.param[name].default for name in names}
-    if explores:
-        first |= {name: value for name, value in arrives().items() if name in first}
+    first |= {name: value for name, value in arrives().items() if name in first}
     if explorer.shape == first["shape"]:
         return first
     top = explorer.shape.top

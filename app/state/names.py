@@ -19,14 +19,18 @@ from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf, Same
 from app.state.map_text import MapText
 from app.text import LANGUAGES
 
-ROOMS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
+ROOMS = ("lab", "build-a-top", "families", "learn", "maps", "measure")
 """Tabs may consist of several rooms."""
-TOY, ROLLING, PLANES = ROOMS[:3]
+LAB = ROOMS[0]
+PANELS = ("which", "surface", "time", "values", "ends", "portraits")
+"""What the Lab shows beside the stage at the level "Research"."""
 LEVELS = ("explore", "research")
 SECTIONS = ("lesson", "derivation", "published", "teach", "history")
 """The rooms of the tab Learn."""
-SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
+SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)} | {f".{str(1 / n)[2:]}": float(n) for n in (2, 4, 8)}
 
+# The defaults belong to a version: if they or the meaning of a name change, this becomes 5.
+VERSION = 4
 VERSION_NAME, TAB, LEVEL, LANGUAGE, VOTE, SECRET = "v", "tab", "level", "lang", "vote", "room"
 """Names that are read before there are views. SECRET: the teacher's key of a vote, only in the teacher's own
 address."""
@@ -79,7 +83,6 @@ ROWS = (
     Name("patch", "Explorer", "patch", Number),
     Name("land", "Explorer", "landing", _words("stop", "plastic")),
     Name("stem", "Explorer", "stem", _SWITCH),
-    Name("seconds", "Explorer", "seconds", Number),
     Name("half", "Explorer", "upper", OneOf(yes=True, no=False, paper=PAPER)),
     Name("limit", "Explorer", "limit", OneOf(lift="lift-off", slip="slip")),
     # playback and view
@@ -96,6 +99,7 @@ ROWS = (
     # the page
     Name(TAB, "Rooms", "room", _words(*ROOMS), undoable=False, where=True),
     Name(LEVEL, "Rooms", "level", _words(*LEVELS), undoable=False, where=True),
+    Name("panel", "Research", "panel", _words(*PANELS), undoable=False, where=True),
     Name("face", "Controls", "face", _words("constants", "state"), undoable=False),
     Name("dark", "Look", "dark", _SWITCH, undoable=False),
     Name("large", "Look", "large", _SWITCH, undoable=False),
@@ -132,7 +136,7 @@ def link(**texts):
     unknown = texts.keys() - NAMES.keys() - {VOTE}
     if unknown:
         raise LookupError(f"no such name in an address: {', '.join(unknown)}")
-    return query(texts)
+    return query({VERSION_NAME: str(VERSION)} | texts)
 
 
 def query(texts):

@@ -1,26 +1,47 @@
 """Links of earlier versions: they still open what they opened, and are rewritten with today's names.
 
 In version 1 each view of the Lab had its own top, start and table. In versions 1 and 2 an address without a tab opened
-the rolling motion, the toy always had a real contact, and static friction was .5 until it was set.
+the rolling motion, the toy always had a real contact, and static friction was .5 until it was set. Up to version 3 the
+Lab had three rooms, two of them at the level "Research", at which the paper's top was the default.
 """
 
 from app.model.setup import LAWS, TOYS
 from app.state.codecs import Body, Number
-from app.state.names import LEVEL, LEVELS, ROLLING, TAB, TOY
+from app.state.names import LAB, LEVEL, LEVELS, ROOMS, TAB
+from tippe_core import TruncatedSphere
 
-LAB = {"turns": "spin", "lean": "tilt", "rub": "mu_k"}  # of a start by hand in the Lab
+ROLLING, PLANES = "roll", "three-planes"
+
+OF_TOY = {"turns": "spin", "lean": "tilt", "rub": "mu_k"}  # of a start by hand in the Lab
 MOTION = "by", "KJ", "KR", "e", "E", "th", "thd", "w2", "w3", "phi", "psi"
 HAND = "spin", "tilt", "slip"  # of a start by hand on the three planes
 TABLE = {"sliding": "ordinary", "smooth": "ice", "compare": "three"}
-ONLY_THEN = {*LAB, "toy", "plane", "start", "mu_smooth", "mu_stick"}
+ONLY_THEN = {*OF_TOY, "toy", "plane", "start", "mu_smooth", "mu_stick"}
 MU = ".5"  # static friction where none was said
 MU_S = ".4"  # the default of Coulomb's law on the three planes in version 1
+PAPERS = {"by": "share", "spin": "20", "tilt": "10", "mu_k": ".3", "mu": ".5", "law": "smoothed"}
+"""The start at the level "Research" up to version 3, where it differed from the arrival."""
+
+
+def fourth(texts):
+    """The texts of a version 3 query in version 4."""
+    room = texts.get(TAB, LAB)
+    room = room if room in (*ROOMS, PLANES) else ROLLING
+    level = texts.get(LEVEL, LEVELS[0] if room == LAB else LEVELS[1])
+    found = {key: text for key, text in texts.items() if key not in (TAB, LEVEL, "seconds")}
+    if level != LEVELS[0]:
+        body = {} if "body" in texts else {"body": Body.text(TruncatedSphere.paper())}
+        found = PAPERS | body | found
+    if room == ROLLING:
+        found = {"slow": "16"} | found | {"table": "rough"}
+    figures = room in (ROLLING, PLANES)
+    return found | {TAB: LAB if figures else room, LEVEL: LEVELS[1] if figures else level}
 
 
 def third(texts):
     """The texts of a version 2 query in version 3."""
     found = {TAB: ROLLING} | texts
-    toy = found[TAB] == TOY
+    toy = found[TAB] == LAB
     if found.get(LEVEL, LEVELS[0] if toy else LEVELS[1]) == LEVELS[0]:
         found = {"mu": MU} | found
     return found | {"law": LAWS[0]} if toy else found
@@ -35,7 +56,7 @@ def second(texts):
 
 def _lab(texts):
     left = {*MOTION, *HAND, "body", "a", "I1", "I3", "mu_k", "law", "gamma", "eps", "patch"}
-    found = {LAB.get(key, key): text for key, text in texts.items() if key not in left}
+    found = {OF_TOY.get(key, key): text for key, text in texts.items() if key not in left}
     return found | _body(texts.get("toy", ""))
 
 

@@ -1,36 +1,26 @@
-"""Which view of the Lab, or which other tab, an address opens, and what an address can leave out.
+"""Which room an address opens, at which level, and what an address can leave out. One that names nothing opens the Lab
+as on arrival."""
 
-The Lab has three views: the toy that flips, at the level "explore"; at "research" the rolling motion, as in the paper,
-and the three planes. Each has its own name in an address.
+from app.state.names import LEVEL, LEVELS, ROOMS, TAB
 
-An address that names no tab opens the first view. One that names another tab but no level comes from a time when there
-was only what is now research.
-"""
-
-from app.state.names import LEVEL, LEVELS, PLANES, ROLLING, ROOMS, TAB, TOY
-
-FIRST, USUAL = AT_ONCE = TOY, ROLLING
+FIRST = ROOMS[0]
+AT_ONCE = (FIRST,)
 """Rooms whose view is created with the page."""
-VIEWS = dict(zip(LEVELS, ((FIRST,), (USUAL, PLANES)), strict=True))
 
 
 def opened(texts):
     """The name of the room that a query with these texts opens."""
     room = texts.get(TAB, FIRST)
-    return room if room in ROOMS else USUAL
+    return room if room in ROOMS else FIRST
 
 
 def level(texts):
     """The level at which it opens it."""
-    return texts.get(LEVEL, LEVELS[0] if opened(texts) == FIRST else LEVELS[1])
+    found = texts.get(LEVEL, LEVELS[0])
+    return found if found in LEVELS else LEVELS[0]
 
 
 def shortest(texts):
-    """The texts of a query without the tab, the level and the table if these are the default."""
-    if opened(texts) == USUAL:
-        texts = {key: text for key, text in texts.items() if key != "table"}
-    for key, usual in ((LEVEL, level), (TAB, opened)):
-        others = {name: text for name, text in texts.items() if name != key}
-        if key in texts and usual(others) == texts[key]:
-            texts = others
-    return texts
+    """The texts of a query without the tab and the level if these are the default."""
+    usual = {TAB: FIRST, LEVEL: LEVELS[0]}
+    return {key: text for key, text in texts.items() if usual.get(key) != text}

@@ -1,11 +1,8 @@
 """What the page says of a link."""
 
 from app.model.lab.lab import scene_of
-from app.model.setup import in_lab
 from app.model.telling import told
 from app.state.keep import explorer_of, read
-from app.state.names import LEVELS
-from app.state.opened import level
 from app.text import speaking
 
 
@@ -15,5 +12,5 @@ def tell(query="", language="en"):
     that is impossible on all of them."""
     texts, _ = read(query)
     with speaking(language):
-        start, _ = explorer_of(texts, level(texts) == LEVELS[0])
-        return told(scene_of("three", in_lab(start.setup), whole=True))
+        start, _ = explorer_of(texts)
+        return told(scene_of("three", start.setup, whole=True))

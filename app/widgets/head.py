@@ -19,16 +19,16 @@ class Head(Bundled):
 
 
 class HeadBar:
-    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look; toured: the room that the tour shows.
+    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look; toured: the room and level of the tour.
 
-    does: {name: function of a value} for all other requests: "toy", "table", "share", "language".
+    does: {name: function of a value} for all other requests: "toy", "share", "language".
     """
 
     SWITCHES = ("dark", "large")
 
-    def __init__(self, rooms, keep, look, does, toured=""):
+    def __init__(self, rooms, keep, look, does, toured=None):
         self._rooms, self._keep, self._look, self._toured, self._answered = rooms, keep, look, toured, 0
-        self._toy, self._toys, self._table, self._tables, self._shares = "", [], "", [], False
+        self._toy, self._toys, self._shares = "", [], False
         steps = {"undo": lambda value: keep.undo(), "redo": lambda value: keep.redo()}
         switches = {name: lambda value, name=name: setattr(look, name, bool(value)) for name in self.SWITCHES}
         goes = {name: lambda value, name=name: self._go(name, value) for name in ("room", "level")}
@@ -62,12 +62,6 @@ class HeadBar:
         self._toy, self._toys = chosen, known
         self._say()
 
-    def tables(self, chosen, known):
-        """Sets the tables that can be chosen here, as [name, words, room], and the present one; none if there is no
-        choice."""
-        self._table, self._tables = chosen, known
-        self._say()
-
     def opened(self, shares):
         """Sets whether Share is open."""
         self._shares = shares
@@ -75,18 +69,14 @@ class HeadBar:
 
     def _say(self, *events):
         rooms, keep = self._rooms, self._keep
-        names, here = listed("main.rooms"), () if self._tables else rooms.tabs[rooms.tab][rooms.level]
+        names, here = listed("main.rooms"), rooms.tabs[rooms.tab]
         self.view.state = {
-            "room": rooms.room, "tour": rooms.room == self._toured, "tab": rooms.tab, "level": rooms.level,
+            "room": rooms.room, "level": rooms.level, "tab": rooms.tab,
+            "tour": (rooms.room, rooms.level) == self._toured,
             "tabs": [[tab, say(f"main.tabs.{tab}"), rooms.first(tab)] for tab in rooms.tabs],
-            # what this tab shows at the other level
-            "levels": [[level, say(f"main.levels.{level}"),
-                        rooms.room if rooms.room in names_of else rooms.first(rooms.tab, level)]
-                       for level, names_of in rooms.tabs[rooms.tab].items()],
-            # the choice in the row below: a table, or another room of the tab
-            "below": "table" if self._tables else "room",
-            "rooms": self._tables or ([[room, names.get(room, ""), room] for room in here] if len(here) > 1 else []),
-            "chosen": self._table if self._tables else rooms.room,
+            "levels": [[level, say(f"main.levels.{level}")] for level in rooms.param.level.objects],
+            # in the row below: other rooms of the tab
+            "rooms": [[room, names.get(room, ""), room] for room in here] if len(here) > 1 else [],
             "places": {room: rooms.place(room) for room in rooms.param.room.objects},
             "toy": self._toy, "toys": self._toys, "undo": keep.can_undo, "redo": keep.can_redo,
             "shares": self._shares,

@@ -123,76 +123,49 @@ class Place:
 class Rooms(param.Parameterized):
     """room: the name of the room that is shown; level: how much the page shows.
 
-    makers: {name in the address: function that creates the view}; tabs: {name: {level: names of its rooms}}; opened,
-    level: the room that is shown first, and its level; usual: the room if there is no such one; at_once: rooms whose
-    view is then created with the page. add: Pacer.now.
+    makers: {name in the address: function that creates the view}; tabs: {name: names of its rooms}; levels: the names
+    of levels; opened, level: what is shown first; usual: the room if there is no such one; at_once: rooms whose view is
+    then created with the page. add: Pacer.now.
     """
 
     room = param.Selector(doc="a key of makers")
-    level = param.Selector(doc="a name of levels; some tabs have other rooms at another level")
+    level = param.Selector(doc="one of the levels")
 
-    def __init__(self, makers, tabs, keep, add, at_once, opened, usual, level):
+    def __init__(self, makers, tabs, levels, keep, add, at_once, opened, usual, level):
         super().__init__()
-        self.tabs, levels = tabs, list(next(iter(tabs.values())))
-        self.param.room.objects, self.param.level.objects = list(makers), levels
+        self.tabs = tabs
+        self.param.room.objects, self.param.level.objects = list(makers), list(levels)
         self.room = opened if opened in makers else usual
-        self.level = level if level in levels else levels[-1]
+        self.level = level
         self._places = {name: Place(name, make, add) for name, make in makers.items()}
-        self._last = {}  # (tab, level) -> the room of it that was shown last
+        self._last = {}  # tab -> the room of it that was shown last
         self.columns = [place.column for place in self._places.values()]
-        self._follow()
+        self._last[self.tab] = self.room
         if self.room in at_once:
             self._places[self.room].column.visible = True
             self._places[self.room].fill()
         else:
             self._look()
-        self.param.watch(self._moved, ["room", "level"])
+        self.param.watch(self._moved, "room")
         # both are always given to the Keep, which leaves them out of a link if they are the default
         keep.add(self, lambda rooms: {"room": None, "level": None})
 
     @property
     def tab(self):
         """The name of the tab to which the present room belongs."""
-        return self.tab_of(self.room)
+        return next(tab for tab, rooms in self.tabs.items() if self.room in rooms)
 
-    def tab_of(self, room):
-        """The name of the tab to which a room belongs."""
-        return next(tab for tab, rooms in self.tabs.items() if any(room in names for names in rooms.values()))
-
-    def first(self, tab, level=None):
-        """The room that a tab shows when it is chosen: the last one that was shown, of those that it has at this
-        level."""
-        level = level or self.level
-        return self._last.get((tab, level), self.tabs[tab][level][0])
-
-    def turn(self, room):
-        """Makes a room the one of its tab: at once if the tab is shown at a level that has it, else when it is chosen
-        next."""
-        tab = self.tab_of(room)
-        levels = [level for level, names in self.tabs[tab].items() if room in names]
-        self._last |= dict.fromkeys([(tab, level) for level in levels], room)
-        if self.tab == tab and self.level in levels:
-            self.room = room
+    def first(self, tab):
+        """The room that a tab shows when it is chosen: the last one that was shown."""
+        return self._last.get(tab, self.tabs[tab][0])
 
     def place(self, room):
         """The name in the document of a room's place."""
         return self._places[room].column.name
 
-    def _moved(self, *events):
-        changed = {event.name for event in events}
-        if changed == {"level"} and self.room not in self.tabs[self.tab][self.level]:
-            self.room = self.first(self.tab)
-            return
-        if "room" in changed:
-            self._follow()
-            self._look()
-
-    def _follow(self):
-        """Sets the level to one that has the present room."""
-        rooms = self.tabs[self.tab]
-        if self.room not in rooms[self.level]:
-            self.level = next(level for level, names in rooms.items() if self.room in names)
-        self._last[self.tab, self.level] = self.room
+    def _moved(self, event):
+        self._last[self.tab] = self.room
+        self._look()
 
     def _look(self):
         for name, place in self._places.items():

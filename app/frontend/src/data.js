@@ -51,6 +51,18 @@ export function coalesce(run) {
   return later;
 }
 
+// Runs once nothing has called it for so long.
+/** @param {() => void} run @param {number} ms @returns {Later} */
+export function debounce(run, ms) {
+  let asked = 0;
+  const later = () => {
+    clearTimeout(asked);
+    asked = window.setTimeout(run, ms);
+  };
+  later.cancel = () => clearTimeout(asked);
+  return later;
+}
+
 // The 2-D context of a canvas. It is null only if the canvas is used by WebGL.
 /** @param {HTMLCanvasElement} canvas */
 export const penOf = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));

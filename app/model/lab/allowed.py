@@ -10,16 +10,18 @@ from app.text import say
 from tippe_core import Shape
 
 LIMITS = MappingProxyType({
-    "spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5), "mu_s": (0.01, 1.5), "gamma": (0.0, 10.0),
-    "eps": (0.01, 5.0), "patch": (0.01, 5.0),
+    "spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "slip": (-10.0, 10.0), "mu": (0.01, 1.5), "mu_s": (0.01, 1.5),
+    "gamma": (0.0, 10.0), "eps": (0.01, 5.0), "patch": (0.01, 5.0),
 })  # fmt: skip
 """{input: the range in which the Lab lets it be set}, in rev/s, degrees, mm, R, M and g; the sliders have smaller
 ranges."""
-POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0)} | {
+POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0), "slip": (-1e6, 1e6)} | {
     name: (0.0, 1e3) for name in ("mu", "mu_s", "gamma", "eps", "patch")
 })  # fmt: skip
 """The same for a start that comes from elsewhere, for example from a link: within it the start is kept and shown."""
-CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS), "law": LAWS})
+CHOICES = MappingProxyType({
+    "table": (*TABLES, "three"), "toy": tuple(TOYS), "law": LAWS, "landing": ("plastic", "stop"), "stem": (True, False),
+})  # fmt: skip
 Limits: TypeAlias = MappingProxyType[str, tuple[float, float]]
 SHOWN = 30  # characters of an input that is not a number, as quoted in a sentence
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.model import arrival
 from app.model.phases import NODS, STANDS
-from app.model.setup import Setup, in_lab, start_of
+from app.model.setup import SECONDS, Setup, start_of
 from app.text import say
 from tippe_core import Many, State, States, Top, slide_many, thresholds
 from tippe_core.types import Array, Bools
@@ -64,8 +64,8 @@ _changing = threading.Condition()  # guards _kept and _under_way; notified when 
 
 
 def of_spins(start: Setup) -> Setup:
-    """The start of which the Ends are: any spin, let go with G at rest, and run as in the Lab."""
-    return replace(in_lab(start), spin=0.0, slip=1.0, rolling=None)
+    """The start of which the Ends are: any spin, let go with G at rest."""
+    return replace(start, spin=0.0, slip=1.0, rolling=None, seconds=SECONDS)
 
 
 ARRIVAL = of_spins(start_of(*arrival.ARRIVAL[1:]))

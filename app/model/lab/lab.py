@@ -18,7 +18,7 @@ from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
 from app.model.lab.ends import Ends, ends_once, known_ends, of_spins
 from app.model.run import SHIPS, TableMotion, TooLong, motion_on, whole_on, why_not
 from app.model.runs import LATER, Result, Run, Runs, Stopped
-from app.model.setup import OF_LAW, TABLES, Setup, Toy, in_lab
+from app.model.setup import OF_LAW, TABLES, Setup, Toy
 from app.model.start import NUMBERS, Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, of_all, story
 from app.text import say
@@ -27,7 +27,23 @@ from tippe_core import TopError
 from tippe_core.types import Array
 
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
-WATCHED = ("table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "law", *NUMBERS)
+WATCHED = (
+    "table",
+    "shape",
+    "a",
+    "I1",
+    "I3",
+    "given",
+    "spin",
+    "tilt",
+    "slip",
+    "theta_dot",
+    "omega2",
+    "law",
+    *NUMBERS,
+    "landing",
+    "stem",
+)
 Inputs = tuple[str, Setup]
 FIRST: Inputs = SHIPS
 IN_LAB = {"mu_k": "mu", "friction": "mu", "radius": "patch"}
@@ -124,7 +140,7 @@ class Lab(param.Parameterized):
     scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last result; None before show()")
     ends = param.Parameter(None, constant=True, doc="Ends over the slider's spins; None until they are computed")
 
-    INPUTS = ("table", "toy", "spin", "tilt", "law", *NUMBERS)
+    INPUTS = ("table", "toy", "spin", "tilt", "slip", "law", *NUMBERS, "landing", "stem")
 
     def __init__(self, runs: Runs | None = None, start: Start | None = None) -> None:
         self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
@@ -144,7 +160,7 @@ class Lab(param.Parameterized):
     @property
     def inputs(self) -> Inputs:
         """The present inputs."""
-        return self.start.table, in_lab(self.start.setup)
+        return self.start.table, self.start.setup
 
     def value(self, name: str) -> Any:
         """The present value of an input."""
@@ -161,7 +177,7 @@ class Lab(param.Parameterized):
 
     def ask(self, **inputs: object) -> None:
         """Sets the inputs that are valid; each of the others keeps its value, and the scene's messages say why. A new
-        toy, spin or tilt makes the start one by hand."""
+        toy, spin, tilt or slip makes the start one by hand."""
         faults = {name: fault(name, value) for name, value in inputs.items()}
         self._messages, self.refused = {name: said for name, said in faults.items() if said}, {}
         self.nearest = {name: near for name in self._messages if (near := nearest(name, inputs[name])) is not None}
@@ -172,8 +188,9 @@ class Lab(param.Parameterized):
         """Sets the Start from inputs of the Lab."""
         start = self.start
         found = inputs | (of_toy(inputs["toy"]) if "toy" in inputs else {})
-        if {"toy", "spin", "tilt"} & inputs.keys():
-            found = {"given": "hand", "spin": start.spin, "tilt": start.tilt, "slip": 1.0} | found
+        if {"toy", "spin", "tilt", "slip"} & inputs.keys():
+            slip = start.slip if start.given == "hand" else 1.0
+            found = {"given": "hand", "spin": start.spin, "tilt": start.tilt, "slip": slip} | found
         found.pop("toy", None)
         start.later(**found)
 

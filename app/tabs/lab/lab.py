@@ -10,15 +10,18 @@ import time
 from functools import partial
 
 import panel as pn
-import param
 
 from app.borrowed import at_once
-from app.bundle import Bundled, pack
+from app.bundle import pack
 from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
 from app.model.lab.allowed import SHOWN
+from app.model.lab.examples import EXAMPLES
 from app.model.lab.lab import FIRST, Lab
 from app.model.setup import OF_LAW, shape_of
 from app.state import asked
+from app.state.names import LEVELS
+from app.tabs.lab.view import LabView
+from app.tabs.lab.words import is_caught
 from app.text import listed, say, speaking, spoken
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
@@ -26,8 +29,8 @@ from app.widgets.top3d import pack_frames
 from tippe_core import TopError
 
 SLIDERS = {
-    "spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2), "mu_s": (0.01, 1, 0.01, 2),
-    "gamma": (0, 2, 0.01, 2), "eps": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2),
+    "spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "slip": (0, 1.5, 0.05, 2), "mu": (0.01, 1, 0.01, 2),
+    "mu_s": (0.01, 1, 0.01, 2), "gamma": (0, 2, 0.01, 2), "eps": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2),
 }  # fmt: skip
 """{input: (least, most, step, decimals) of its slider}; values outside can be typed."""
 SOON = 0.05  # s: a run that is done sooner is not shown as under way
@@ -61,60 +64,22 @@ def _word(dimension):
     return said[0].upper() + said[1:]
 
 
-class LabView(Bundled):
-    """The whole tab: the top on its table, the tilt over time, what happens and why, a figure that answers, and the
-    controls of the start.
-
-    For each table it has the frames of the motion, as `pack_frames` packs them, and its curves: float32 rows of the
-    time (s), the tilt (degrees), the height of G, the energy and the heat so far (as mm of height), the spin about the
-    top's own axis and its rotation seen from above (rev/s), and the code of the regime; for all three side by side
-    also what it conserves, float32 rows as of app.model.keeps. All are empty if there is no such motion.
-    """
-
-    SAYS = ("Stage", "Top3D")
-    REGIMES = "here"
-
-    # JSON, because Panel and Bokeh search each part of a dict again and again, which was a quarter of a move
-    state = param.String(default="{}", doc="The inputs, what was refused, the progress of the present run.")
-    told = param.String(default="{}", doc="The inputs of what is shown, and its runs in words.")
-    profile = param.Bytes(default=b"", doc="As of a Top3D.")
-    a = param.Number(default=0.0, doc="G's distance below O, in R.")
-    seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
-    frames_ordinary = param.Bytes(default=b"")
-    frames_rough = param.Bytes(default=b"")
-    frames_ice = param.Bytes(default=b"")
-    curves_ordinary = param.Bytes(default=b"")
-    curves_rough = param.Bytes(default=b"")
-    curves_ice = param.Bytes(default=b"")
-    keeps_ordinary = param.Bytes(default=b"")
-    keeps_rough = param.Bytes(default=b"")
-    keeps_ice = param.Bytes(default=b"")
-    asked = param.List(
-        default=[], doc="[count, name, value] of a request, the browser writes it; state tells the last "
-        "count that was answered. The names are a Lab's inputs; research: the paper's figures; why: the lesson."
-    )  # fmt: skip
-
-    @classmethod
-    def says(cls, language=None):
-        return super().says(language) | listed("lab_view.view", language)
-
-
-def lab_view(lab, keep, go, explain):
-    """The tab. lab: a Lab; keep: called when its start is to be kept, as it is then; go: shows the paper's figures for
-    it; explain: shows the lesson's step that says why a top turns over."""
+def lab_view(lab, keep, **leads):
+    """The LabTab. lab: a Lab; keep: called when its start is to be kept, as it is then; leads: {"research", "why",
+    "why_not": called to show the paper's figures, or a place of Learn}."""
 
     def rests():
         keep()
         lab.rest()
 
-    tab = LabTab(lab, go, rests, explain)
+    tab = LabTab(lab, rests, **leads)
     if lab.inputs == FIRST:
         lab.show()  # stored, so that it is there as soon as the page
     if pn.state.loaded:
         begin(lab)
     else:
         pn.state.onload(partial(begin, lab))
-    return tab.view
+    return tab
 
 
 def begin(lab):
@@ -156,17 +121,21 @@ class Quiet:
 
 
 class LabTab:
-    """view: the tab. lab: the Lab that it shows and controls; research: called to show the paper's figures for this top
-    and start; rests: called when a hand that has changed something is at rest; explain: called to show why it turns
-    over."""
+    """view: the tab. lab: the Lab that it shows and controls; rests: called when a hand that has changed something is
+    at rest; leads: as of lab_view()."""
 
-    def __init__(self, lab, research, rests, explain=None):
-        self._lab, self._leads, self._quiet, self._looks = lab, {"research": research, "why": explain}, Quiet(rests), 0
+    def __init__(self, lab, rests, **leads):
+        self._lab, self._leads, self._quiet, self._looks = lab, leads, Quiet(rests), 0
         self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
         lab.param.watch(self._changed, ["scene", "ends", "busy"])
+        self.view.param.watch(self._opened, "level")
+        self.show()
+
+    def _opened(self, event):
+        self._shown = None  # more is said
         self.show()
 
     def _heard(self, event):
@@ -177,6 +146,10 @@ class LabTab:
             self._leads[name]()
         elif name == "stop":
             self._lab.stop()
+        elif name == "example":
+            if asked.text(value) not in EXAMPLES:
+                raise asked.Unasked(value)
+            self._lab.ask(**EXAMPLES[value])
         elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
             self._tried[name], self._wrong, self._near = value, {}, {}
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
@@ -257,6 +230,7 @@ class LabTab:
             "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
             "messages": messages,
             "law": self._law(start.law),
+            "friction": [start.law, start.landing, start.stem],
             "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
             "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), ""),
@@ -271,6 +245,9 @@ class LabTab:
     def _told(self, scene):
         view, start, slides = listed("lab_view.view"), scene.start, scene.table in ("ordinary", "three")
         law, numbers = start.law, [name for name in OF_LAW[start.law] if name != "mu"]
+        if self.view.level != LEVELS[0] and start.rolling is None:
+            numbers.append("slip")
+        ordinary = scene.motions["ordinary"]
         inputs = [view["inputs"][name] for name in numbers]
         headline, why = scene.said
         return {
@@ -290,6 +267,8 @@ class LabTab:
             },
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
+            "caught": ordinary is not None and is_caught(ordinary),
+            "touches": start.shape is not None and start.shape.touch_angle is not None,
             "R": 1e3 * shape_of(scene.toy).R,
             "whole": scene.whole,
         }

@@ -6,7 +6,7 @@ import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
 import { awayFromTieline, gripAt, isOn, REACH } from "./grips.js";
 import { hideReadout, showReadout } from "./readout.js";
-import { followClock, gestureOf, isFollowed, seek } from "./seeking.js";
+import { LAB, followClock, gestureOf, isFollowed, seek } from "./seeking.js";
 
 const CURSORS = { bead: "grab", end: "ew-resize", line: "ns-resize" };
 
@@ -37,7 +37,7 @@ export function followMotion({ fig, hand, motion, selected }) {
     now = t;
     placeBead();
   });
-  now = timeOf();
+  now = timeOf(LAB);
   placeBead(); // a paused clock sends no events
   const events = eventsOf(fig);
   const onTieline = ({ clientX, clientY }) => {
@@ -88,7 +88,7 @@ export function pullPlane(given, event) {
 
 function moveClock({ motion }, { inner, outer }, theta, held) {
   const aim = clamp(theta, Math.min(inner, outer), Math.max(inner, outer));
-  seek(timeAtTilt(motion.data, aim, timeOf()), held);
+  seek(timeAtTilt(motion.data, aim, timeOf(LAB)), held);
 }
 
 // A place in the plane and the selected tieline, in px of the window.

@@ -2,12 +2,12 @@
 import { elementOf, scalesOf } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
 import { spotInTurn, timeAtPoint, valueAt } from "./curves.js";
-import { followClock, isDown, isFollowed, seek } from "./seeking.js";
+import { LAB, followClock, isDown, isFollowed, seek } from "./seeking.js";
 
 /** @param {{ fig: Figure, curve: Source<"t" | "x" | "y">, bead: Source<"x" | "y"> }} given */
 export function followCurve({ curve, bead, fig }) {
   if (isFollowed(curve)) return;
-  let now = timeOf();
+  let now = timeOf(LAB);
   const place = () => {
     const { t, x, y } = curve.data;
     if (!(t[t.length - 1] > t[0])) return;
@@ -26,6 +26,6 @@ export function followCurve({ curve, bead, fig }) {
 
 /** @param {{ fig: Figure, curve: Source<"t" | "x" | "y">, whole: boolean }} given @param {Happened} event */
 export function seekOnCurve({ curve, fig, whole }, event) {
-  const t = timeAtPoint(curve.data, [event.x, event.y], timeOf(), whole, scalesOf(fig));
+  const t = timeAtPoint(curve.data, [event.x, event.y], timeOf(LAB), whole, scalesOf(fig));
   seek(t, isDown(event));
 }

@@ -1,8 +1,10 @@
 // Dragging on a figure sets the time of the clock, which is paused until the pointer is released.
 
+export const LAB = "lab"; // the clock of the page's start
+
 /** @param {number} t @param {boolean} held */
-export function seek(t, held, clock = "") {
-  window.dispatchEvent(new CustomEvent(`tippe:seek${clock && `:${clock}`}`, { detail: { t, held } }));
+export function seek(t, held, clock = LAB) {
+  window.dispatchEvent(new CustomEvent(`tippe:seek:${clock}`, { detail: { t, held } }));
 }
 
 /** @param {Pick<Happened, "event_name">} event */
@@ -30,6 +32,6 @@ export function isFollowed(followers) {
 }
 
 /** @param {(t: number) => void} move */
-export function followClock(move, clock = "") {
-  window.addEventListener(`tippe:clock${clock && `:${clock}`}`, ({ detail: { t } }) => move(t));
+export function followClock(move, clock = LAB) {
+  window.addEventListener(`tippe:clock:${clock}`, ({ detail: { t } }) => move(t));
 }

@@ -3,8 +3,8 @@ import { Control } from "./control.js";
 import { part } from "./parts.js";
 
 export class Body {
-  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {"body" | "rubs"} word @param {"dims" | "rubs"} of their key in the state */
-  constructor(texts, ask, word, of) {
+  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {"body" | "rubs"} word @param {"dims" | "rubs"} of their key in the state @param {any[]} first what stands above them */
+  constructor(texts, ask, word, of, ...first) {
     this.texts = texts;
     this.ask = ask;
     this.of = of;
@@ -12,7 +12,7 @@ export class Body {
     /** @type {Control[]} */
     this.parts = [];
     this.place = part("div");
-    this.element = part("details", { class: "body" }, part("summary", {}, texts[word]), this.place);
+    this.element = part("details", { class: "body" }, part("summary", {}, texts[word]), ...first, this.place);
   }
 
   /** @param {any} state @param {boolean} ahead */

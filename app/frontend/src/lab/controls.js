@@ -3,6 +3,7 @@
 import { Body } from "./body.js";
 import { Control } from "./control.js";
 import { Launch } from "./launch.js";
+import { Law } from "./law.js";
 import { part, say, written } from "./parts.js";
 
 export const INPUTS = ["spin", "tilt", "mu"];
@@ -13,7 +14,8 @@ export class Controls {
     this.texts = texts;
     this.parts = INPUTS.map((name) => new Control(name, texts.inputs[name], texts, ask));
     const [turns] = this.parts;
-    this.folds = [new Body(texts, ask, "rubs", "rubs"), new Body(texts, ask, "body", "dims")];
+    this.law = new Law(texts, ask);
+    this.folds = [new Body(texts, ask, "rubs", "rubs", this.law.element), new Body(texts, ask, "body", "dims")];
     this.launch = new Launch(texts, {
       spin, launch: () => ask("spin", turns.value), stop: () => ask("stop", ""),
       strength: (share) => say(texts, texts.strength, { spin: [turns.putShare(share), 0] }),
@@ -39,6 +41,7 @@ export class Controls {
   show(scene, ahead) {
     const { state, table, before } = scene, { texts } = this;
     this.launch.show(scene);
+    this.law.show(state);
     for (const fold of this.folds) fold.show(state, ahead);
     this.parts[2].note(state.law);
     for (const [i, control] of this.parts.entries()) {

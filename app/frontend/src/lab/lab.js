@@ -12,10 +12,12 @@ import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
 import { Time } from "./time.js";
+import { SHOWS } from "./top.js";
 import { Words } from "./words.js";
-import { coalesce, float32 } from "../data.js";
+import { coalesce, debounce, float32 } from "../data.js";
 import { Press } from "../widgets/press.js";
 
+const TELL_MS = 80; // ms without a change of the time after which Python is told of it
 const PATIENCE = 100; // ms that the old picture may be beside the new start without a remark
 
 class Lab {
@@ -34,7 +36,8 @@ class Lab {
     this.press = new Press();
     const ask = (name, value) => this.ask(name, value);
     this.before = new Before(texts);
-    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand() });
+    this.time.chose = (speed) => (model.speed = speed);
+    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), camera: model.camera, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
     this.words = new Words(texts, ask, () => this.goBack());
     this.answer = new Answer(texts, this.time);
@@ -45,6 +48,7 @@ class Lab {
     this.element = part("div", { class: "lab" }, this.stage.element, this.strip.element, this.words.element,
       this.answer.element, this.keeps.element, this.controls.element);
     this.frame = part("div", { class: "frame" }, this.element);
+    for (const by of ["pointerdown", "keydown"]) this.strip.element.addEventListener(by, () => this.tells());
     el.replaceChildren(part("style", {}, style), this.frame);
     this.look();
     this.show = coalesce(() => this.showNow());
@@ -91,6 +95,26 @@ class Lab {
     this.before.goBack((name, value) => this.ask(name, value), this.scene);
   }
 
+  // A person has set the time: from now on Python is told of it.
+  tells = () => void (this.isTold = true);
+
+  // Tells Python whether it plays, and the time at which it rests.
+  tell = debounce(() => {
+    const { model, time } = this, t = time.t / time.unit;
+    if (!this.scene || time.held) return;
+    if (model.playing !== time.playing) model.playing = time.playing;
+    if (!time.playing && model.time !== t) model.time = t;
+  }, TELL_MS);
+
+  // Sets how much is open, what is shown on the stage, and how fast it plays.
+  showLevel = () => {
+    const { model, element, stage, time } = this, isOpen = model.level === "research";
+    element.dataset.level = model.level;
+    time.chosen = model.speed;
+    stage.dress(model, isOpen);
+    this.show();
+  };
+
   // Dragging the axis: the motion starts again at that tilt when the pointer is released.
   hand() {
     return {
@@ -120,7 +144,7 @@ class Lab {
     }
     const alone = table === "three" ? "ordinary" : table, curves = each((name) => this.bytes[name].curves);
     return {
-      state, texts: model.texts, table, curves, runs, run: runs[alone], unit: model.seconds, a: model.a,
+      state, texts: model.texts, isOpen: model.level === "research", table, curves, runs, run: runs[alone], unit: model.seconds, a: model.a,
       frames: each((name) => model[`frames_${name}`]), profile: float32(model.profile),
       end: Math.max(...Object.values(curves).map(({ end }) => end)), waits: this.waits,
       keeps: each((name) => model[`keeps_${name}`]),
@@ -142,6 +166,7 @@ class Lab {
     this.stage.show(scene);
     for (const shown of [this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.show(scene);
     this.controls.show(scene, this.asking.isAhead);
+    if (!this.isBegun && scene.end) this.begin();
     this.element.toggleAttribute("data-whole", Boolean(scene.state.whole)); // for tests only
     this.element.classList.toggle("old", Boolean(scene.state.old));
     if (this.anew === scene.table) {
@@ -151,14 +176,26 @@ class Lab {
     this.at();
   }
 
+  // A link may be of one moment.
+  begin() {
+    const { model, time } = this;
+    this.isBegun = true;
+    if (model.playing) return;
+    time.seek(model.time * time.unit);
+    time.play(false);
+  }
+
   at() {
     if (!this.scene) return;
+    if (this.isTold) this.tell();
     for (const shown of [this.stage, this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.at(this.time.t);
   }
 
   leave() {
     clearTimeout(this.patience);
     this.show.cancel();
+    this.tell.cancel();
+    window.removeEventListener("tippe:command", this.tells);
     for (const gone of [this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
     window.removeEventListener("tippe:look", this.look);
   }
@@ -171,8 +208,10 @@ export function renderLab({ model, el, view }) {
   for (const name of ["state", "told", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`, `keeps_${table}`])]) {
     model.on(name, lab.show);
   }
+  for (const name of ["level", "speed", ...SHOWS]) model.on(name, lab.showLevel);
   window.addEventListener("tippe:look", lab.look);
-  lab.show();
+  window.addEventListener("tippe:command", lab.tells);
+  lab.showLevel();
   view.tippe = { dispose: () => lab.leave(), hold: (held) => lab.asking.hold(held) };
   model.on("remove", () => lab.leave());
 }

@@ -4,7 +4,7 @@ import { thenAt } from "./before.js";
 import { latest, TABLES, TILT, TURNING } from "./curves.js";
 import { Choice, drawn, part, say } from "./parts.js";
 import { SPEEDS } from "./time.js";
-import { Top } from "./top.js";
+import { ARROWS, NOTHING, SHOWS, Top } from "./top.js";
 
 const RING = "M18 14c-9 1.500-15 3.500-15 6 0 5 25 9 57 9 25 0 47-2.500 56-6";
 
@@ -13,15 +13,16 @@ export class Stage {
    * @param {Record<string, any>} texts
    * @param {import("./time.js").Time} time
    * @param {(name: string, value: any) => void} ask
-   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void } }} of forget: dismisses the earlier run
+   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void }, camera: number[], set: (name: string, value: any) => void }} of
+   *     forget: dismisses the earlier run; camera: the chosen view, or empty; set: sets it, and what is shown
    */
-  constructor(texts, time, ask, { forget, hand }) {
+  constructor(texts, time, ask, { forget, hand, camera, set }) {
     this.texts = texts;
     this.time = time;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // below three tops: what each of them does
     const words = { ...texts, hint: texts.turn_hint, handle: texts.axis, handle_hint: texts.axis_hint };
-    this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand });
+    this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand, camera, turned: (chosen) => set("camera", chosen) });
     this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));
     this.places = [part("div", { class: "place" }, this.alone.element),
@@ -39,11 +40,30 @@ export class Stage {
     this.then = part("span");
     this.chip = part("div", { class: "chip", hidden: true }, this.then,
       part("button", { type: "button", "aria-label": texts.forget, title: texts.forget, onclick: forget }, "×"));
+    this.boxes = SHOWS.map((name) => part("input", { type: "checkbox", name, onchange: (event) => set(name, event.target.checked) }));
+    this.menu = part("details", { class: "shows" }, part("summary", {}, texts.show), part("div", { class: "list" }, ...SHOWS.map((name, i) => {
+      const label = part("label", { title: texts.shows[name][1] }, this.boxes[i], part("span")); // the title is its name in full
+      label.lastChild.innerHTML = texts.shows[name][0];
+      this.boxes[i].setAttribute("aria-label", texts.shows[name][1]);
+      return label;
+    }), part("button", { type: "button", onclick: () => this.alone.firstView() }, texts.view)));
     this.missing = part("p", { class: "missing", role: "status" });
     this.element = part("section", { class: "stage", "aria-label": texts.stage },
       part("div", { class: "tops" }, ...this.places), this.ring,
       part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),
-      this.pill, this.chip, this.missing);
+      this.pill, this.chip, this.menu, this.missing);
+  }
+
+  // Shows what of a motion is to be shown, and the chosen view; nothing but the top unless all of it is open.
+  /** @param {LabModel} model @param {boolean} isOpen */
+  dress(model, isOpen) {
+    const shown = isOpen ? Object.fromEntries(SHOWS.map((name) => [name, model[name]])) : NOTHING;
+    for (const top of this.tops) {
+      top.put(shown);
+      top.element.toggleAttribute("data-arrows", ARROWS.some((name) => shown[name]));
+    }
+    this.boxes.forEach((box) => (box.checked = model[box.name]));
+    this.menu.hidden = !isOpen;
   }
 
   get tops() {

@@ -25,8 +25,8 @@ export class Strip {
     this.play = part("button", { class: "round", type: "button", onclick: () => time.play(!time.playing) });
     this.clock = part("span", { class: "clock" });
     this.speed = part("select", {
-      class: "speed", "aria-label": texts.speed, onchange: () => (time.chosen = Number(this.speed.value)),
-    }, ...SPEEDS.map((speed, i) => part("option", { value: speed }, texts.speeds[i])));
+      class: "speed", "aria-label": texts.speed, onchange: () => time.chose(Number(this.speed.value)),
+    }, part("option", { value: 0 }), ...SPEEDS.map((speed, i) => part("option", { value: speed }, texts.speeds[i])));
     const again = part("button", { class: "again", type: "button", title: texts.again_hint, onclick: () => {
       time.again();
       time.play(true);
@@ -96,7 +96,7 @@ export class Strip {
   // Short where there is little room.
   writeSpeeds() {
     const { texts, width } = this;
-    SPEEDS.forEach((_, i) => (this.speed.options[i].text = (width < NARROW ? texts.short_speeds : texts.speeds)[i]));
+    SPEEDS.forEach((_, i) => (this.speed.options[i + 1].text = (width < NARROW ? texts.short_speeds : texts.speeds)[i]));
   }
 
   draw() {
@@ -221,8 +221,10 @@ export class Strip {
     const curves = scene.curves[scene.table === "three" ? "ordinary" : scene.table];
     const [, headline] = latest(scene.run?.stages ?? [], t) ?? [];
     this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, 2], tilt: [curves.at(t, TILT) || 0, 0], headline: headline ?? "" }));
-    const speed = String(time.speed);
+    const speed = String(time.chosen);
     if (this.speed.value !== speed) this.speed.value = speed;
+    const own = say(texts, texts.automatic, { speed: (this.width < NARROW ? texts.short_speeds : texts.speeds)[SPEEDS.indexOf(time.speed)] });
+    if (this.speed.options[0].text !== own) this.speed.options[0].text = own;
   }
 
   leave() {

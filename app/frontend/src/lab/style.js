@@ -65,6 +65,10 @@ const places = `
 .lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
 .lab[data-table=three] .body { display: none; }
 .lab[data-table=three] .outline { display: none; }
+/* With the research beside it, all is below the top. */
+.lab[data-level=research]:not([data-table=three]) { grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say say" auto "controls answer" auto / minmax(0, 1fr) minmax(0, 1fr);
+  --stage: clamp(300px, 100vh - 560px, 62cqw); }
+.lab[data-level=research] .answer { min-height: 300px; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
     --stage: clamp(390px, 100vh - 400px, 62cqw); }
@@ -102,6 +106,11 @@ const stage = `
 .chip { position: absolute; left: 16px; top: 64px; display: flex; align-items: center; background: var(--ground); border-radius: 16px; padding-left: 12px; font-variant-numeric: tabular-nums; }
 .chip button { padding: 0; width: var(--touch); font-size: var(--t-l); border-radius: 16px; }
 .pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
+.law { display: none; } .lab[data-level=research] .law { display: grid; gap: 8px; justify-items: start; padding: 4px 0 8px; } .law .seg { flex-wrap: wrap; }
+.touches { display: flex; gap: 8px; align-items: center; min-height: var(--touch); cursor: pointer; } .touches input { width: 18px; height: 18px; margin: 0; accent-color: var(--accent); }
+.shows { position: absolute; right: 16px; bottom: 12px; background: var(--ground); border-radius: 8px; max-height: calc(100% - 80px); overflow: auto; }
+.shows summary { padding: 4px 12px; cursor: pointer; } .shows .list { display: grid; padding: 0 12px 8px; }
+.shows label { display: flex; gap: 8px; align-items: center; min-height: var(--touch); cursor: pointer; } .shows input { width: 18px; height: 18px; margin: 0; accent-color: var(--accent); }
 .ring { position: absolute; left: 50%; top: max(58px, 9%); margin-left: -65px; display: flex; align-items: center; gap: 8px; color: var(--q-spin); font-weight: 600; white-space: nowrap;
   font-variant-numeric: tabular-nums; pointer-events: none; }
 .ring svg { width: 130px; flex: none; } .ring.back svg { transform: scaleX(-1); }

@@ -3,7 +3,7 @@
 import { tempo } from "./curves.js";
 
 const CLOCK = "lab";
-export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16]; // in units of real time
+export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 32, 1 / 64]; // in units of real time
 
 export class Time {
   /** @param {() => void} changed t or playing has changed @param {string} name of the tops' clock */
@@ -17,6 +17,7 @@ export class Time {
     this.playing = false;
     this.held = false;
     this.chosen = 0; // the speed that a person chose; 0: none
+    this.chose = (speed) => void (this.chosen = speed);
     /** @type {any[][]} */
     this.events = [];
     /** @type {any[]} */

@@ -3,25 +3,34 @@ import { renderTop3D } from "../three/top3d.js";
 import { part } from "./parts.js";
 
 // The Lab has its own words for these.
-const OURS = ".tippe :is(.bar, .verdict, .scales, .time) { display: none } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 }";
+const OURS = ".tippe :is(.bar, .verdict, .time) { display: none } :host(:not([data-arrows])) .tippe .scales { display: none }" +
+  ".tippe .scales { left: auto; right: 16px; top: 16px } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 }";
 
-const SHOWS = {
-  show_track: false, show_com_path: false, show_force: false, show_cone: false, show_omega: false, show_momentum: false, follow: true,
-};
+// What is shown of a motion besides the top itself.
+export const SHOWS = ["show_force", "show_omega", "show_momentum", "show_com_path", "show_track", "show_cone", "follow"];
+export const ARROWS = ["show_force", "show_omega", "show_momentum"];
+export const NOTHING = { ...Object.fromEntries(SHOWS.map((name) => [name, false])), follow: true };
 
 export class Top {
   /**
    * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time
    * @param {number} of.away distance of the camera, in units of the distance at which the whole top just fits
    * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what dragging the axis does
+   * @param {number[]} [of.camera] the view that a person chose before @param {(camera: number[]) => void} [of.turned] hears of another
    */
-  constructor({ texts, label, time, away, hand }) {
-    const listeners = new Map(), put = (changes) => this.put(changes);
+  constructor({ texts, label, time, away, hand, camera: before = [], turned }) {
+    const listeners = new Map(), put = (changes) => this.put(changes), first = [-1.12, 0.26, away];
+    let camera = before.length ? before : first;
     this.listeners = listeners;
     this.element = part("div", { class: "top" });
     const values = {
       texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
-      tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, camera: [-1.12, 0.26, away], ...SHOWS,
+      tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
+      get camera() { return camera; },
+      set camera(chosen) {
+        camera = chosen.length ? chosen : first;
+        turned?.(chosen);
+      },
       get speed() { return time.speed; },
       set speed(_) {},
       get until() { return time.end / time.unit; },
@@ -32,7 +41,7 @@ export class Top {
       on: (name, run) => listeners.set(name, [...(listeners.get(name) ?? []), run]),
     };
     this.model = /** @type {any} */ (values);
-    this.view = {};
+    this.view = /** @type {any} */ ({});
   }
 
   // Draws it unless it is already drawn.
@@ -49,6 +58,11 @@ export class Top {
     const names = Object.keys(changes).filter((name) => this.model[name] !== changes[name]);
     for (const name of names) this.model[name] = changes[name];
     if (this.begun) for (const name of names) for (const run of this.listeners.get(name) ?? []) run();
+  }
+
+  firstView() {
+    this.model.camera = [];
+    this.view.tippe?.look();
   }
 
   leave() {

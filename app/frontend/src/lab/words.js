@@ -3,6 +3,7 @@ import { latest } from "./curves.js";
 import { part, say } from "./parts.js";
 
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
+const OPEN = { rough: "three" }; // where the research is open already
 
 export class Words {
   /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} back goes back to the earlier run */
@@ -13,10 +14,10 @@ export class Words {
     this.compared = part("span");
     this.back = part("button", { class: "link", type: "button", hidden: true, onclick: back }, texts.go_back);
     this.next = part("button", { class: "outline", type: "button", onclick: () => {
-      const to = NEXT[this.scene.table];
+      const to = this.to;
       ask(to === "research" ? "research" : "table", to);
     } });
-    this.lesson = part("button", { class: "link", type: "button", hidden: true, onclick: () => ask("why", "") });
+    this.lesson = part("button", { class: "link", type: "button", hidden: true, onclick: () => ask(this.scene.state.caught ? "why_not" : "why", "") });
     // A screen reader hears it once a stage, not at each frame.
     this.element = part("section", { class: "say" }, part("div", { role: "status" }, part("p", { class: "small" }, this.compared, " ", this.back),
       this.headline, part("p", {}, this.why, " ", this.lesson)), this.next);
@@ -25,9 +26,13 @@ export class Words {
   show(scene) {
     const { texts } = this;
     this.scene = scene;
-    this.next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[NEXT[scene.table]]} →`));
+    const next = NEXT[scene.table];
+    this.to = next === "research" && scene.isOpen ? OPEN[scene.table] : next;
+    this.next.hidden = !this.to;
+    if (this.to) this.next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[this.to]} →`));
     const isLifted = scene.table === "three" || (scene.run?.events ?? []).some(([, code]) => code === "over");
-    this.lesson.textContent = (isLifted && texts.whys[scene.table]) || "";
+    const isCaught = scene.state.caught && scene.table === "ordinary";
+    this.lesson.textContent = isCaught ? texts.more.caught : (isLifted && texts.whys[scene.table]) || "";
     this.said = undefined;
     this.compared.textContent = scene.before?.compared ?? "";
   }

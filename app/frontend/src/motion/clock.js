@@ -6,10 +6,6 @@ const TELL_MS = 80; // ms between two times that are sent to Python while scrubb
 /** @type {Map<string, Place[]>} */
 const clocks = new Map(); // name -> the places on it
 
-// The views of the page's one start share the time: a view that appears continues where the last visible one stopped.
-const OF_THE_START = ["", "lab", "planes"];
-let last = { name: "", seconds: NaN }; // the clock of the last visible view, and its time in s of the real top
-
 const on = (name) => clocks.get(name) ?? [];
 
 // The top of a clock that moves the time: the first visible one that has a motion.
@@ -125,25 +121,9 @@ export class Place {
     return (!leads && player.follow(this.leader.player.t)) || again;
   }
 
-  // Stores the time for the view that appears next; a view that appears itself takes over the stored one.
-  meet() {
-    const { name, model, player, picture, player: { frames } } = this;
-    if (!OF_THE_START.includes(name) || !this.leads || !picture.clientWidth || frames.count < 2) return;
-    if (last.name !== name && Number.isFinite(last.seconds)) {
-      const t = last.seconds / model.seconds;
-      last = { ...last, name };
-      player.seek(name ? Math.min(t, frames.end) : player.wrap(t)); // a rolling motion repeats forever
-      this.met = player.t;
-    } else if (player.t !== this.met) {
-      last = { name, seconds: player.t * model.seconds };
-      this.met = NaN;
-    }
-  }
-
   // Sends the present moment as an event, if it is new.
   /** @param {string} verdict */
   say(verdict) {
-    this.meet();
     const { t, playing, index } = this.player;
     if (this.said?.t === t && this.said.playing === playing) return;
     this.said = { t, index, playing, verdict };

@@ -42,14 +42,19 @@ class Top {
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
     this.bar = new Bar(root, picture, model, this.player, () => {
       model.camera = [];
-      this.eye.begin();
-      stage.invalidate();
+      this.look();
     });
     stage.tick = (now, held) => this.tick(now, held);
     stage.fit = (aspect) => this.eye.fit(aspect);
     stage.turned = () => this.eye.tell();
     stage.shown = () => (this.shown = this.drawing);
     stage.beforeDraw = () => this.scene.labels.place();
+  }
+
+  // Looks from the chosen view, or from the first one.
+  look() {
+    this.eye.begin();
+    this.stage.invalidate();
   }
 
   // Tells Python and the other parts of the page.
@@ -179,7 +184,7 @@ export function renderTop3D({ model, el, view }) {
   if (!model.clock) picture.dataset.picture = "top";
   const stage = tryStage(picture, { label, texts, fov: 30 });
   if (!stage) return renderFlat({ model, root, picture, view });
-  const dispose = new Top(model, stage, { root, picture, label }).begin();
-  view.tippe = { dispose };
+  const top = new Top(model, stage, { root, picture, label }), dispose = top.begin();
+  view.tippe = { dispose, look: () => top.look() };
   model.on("remove", dispose);
 }

@@ -57,7 +57,7 @@ function speak(model, signal) {
       say(fill(texts.instant, { seconds, verdict: detail.verdict, said: model.said }));
     }
   };
-  window.addEventListener("tippe:clock", onClock, { signal });
+  window.addEventListener("tippe:clock:lab", onClock, { signal });
   model.on("said", () => say(now()));
   model.on("tour", () => say("")); // clears what was said in another room
   signal.addEventListener("abort", () => {

@@ -35,7 +35,7 @@ class Head {
     this.count = model.state.answered ?? 0;
     this.toy = part("select", { class: "toy", "aria-label": texts.toy, onchange: () => this.ask("toy", this.toy.value) });
     this.tabs = new Several("tab", texts.tabs, (tab) => this.go(this.roomOf("tabs", tab)));
-    this.rooms = new Several("radio", texts.rooms, (name) => this.goBelow(name));
+    this.rooms = new Several("radio", texts.rooms, (room) => this.goBelow(room));
     this.levels = [0, 1].map(() => new Several("radio", texts.level, (level) => this.goLevel(level)));
     this.steps = [0, 1].map(() => ["undo", "redo"].map((name) =>
       part("button", { type: "button", class: "icon", "aria-label": texts[name], title: texts[name], onclick: () => this.ask(name) }, texts.signs[name])));
@@ -49,7 +49,7 @@ class Head {
     this.row = part("header", { class: "row" }, part("h1", {}, texts.title), this.toy, part("nav", { "aria-label": texts.tabs }, this.tabs.element),
       part("span", { class: "grow" }), part("span", { class: "wide" }, this.levels[0].element, part("span", {}, ...this.steps[0]), this.shares[0]),
       this.more, this.menu);
-    this.below = part("div", { class: "rooms" }, part("b", { "aria-hidden": "true" }, texts.table), this.rooms.element);
+    this.below = part("div", { class: "rooms" }, this.rooms.element);
     el.replaceChildren(part("style", {}, headStyle), part("div", { class: "all" }, this.row, this.below));
   }
 
@@ -111,15 +111,14 @@ class Head {
     this.ask("room", room);
   }
 
-  // Another room of the tab, or another table.
-  goBelow(name) {
-    this.turn(this.roomOf("rooms", name));
-    this.rooms.choice.show(name);
-    this.ask(this.model.state.below, name);
+  // Another room of the tab.
+  goBelow(room) {
+    this.turn(room);
+    this.rooms.choice.show(room);
+    this.ask("room", room);
   }
 
   goLevel(level) {
-    this.turn(this.roomOf("levels", level));
     for (const levels of this.levels) levels.choice.show(level);
     this.ask("level", level);
   }
@@ -130,9 +129,7 @@ class Head {
     this.tabs.show(state.tabs, state.tab);
     for (const levels of this.levels) levels.show(state.levels, state.level);
     this.below.hidden = !state.rooms.length;
-    if (state.rooms.length) this.rooms.show(state.rooms, state.chosen);
-    this.below.className = state.below === "table" ? `rooms table ${state.chosen}` : "rooms";
-    this.rooms.choice?.element.setAttribute("aria-label", state.below === "table" ? this.texts.table : this.texts.rooms);
+    if (state.rooms.length) this.rooms.show(state.rooms, state.room);
     for (const share of this.shares) share.setAttribute("aria-expanded", String(state.shares));
     this.tour.hidden = !state.tour;
     this.languages.show(state.languages, state.language);

@@ -25,11 +25,6 @@ select { border: 0; background: var(--ground); min-height: calc(32px * var(--typ
 .switch [aria-checked=true] { background: var(--ground); color: var(--accent); font-weight: 600; box-shadow: 0 0 0 1.5px var(--accent); }
 .row[data-tab=learn] .wide .switch { display: none; }
 .rooms { padding: 12px 24px 0; } .narrow { display: none; }
-/* The table's lies on the stage, which stays below the head as long as there is height for it: as it does in the Lab. */
-.rooms b { display: none; } .table { background: none; width: max-content; } .table .switch > div { background: none; padding: 0; }
-.table { display: inline-flex; padding: 12px 24px 0; } .table b { display: block; align-self: center; font-weight: 600; padding: 0 4px 0 10px; }
-@media (max-width: 999px), (min-height: 700px) { .table:not(.three) { position: absolute; left: 36px; top: calc(48px * var(--type, 1) + 24px); padding: 3px; border-radius: 8px; background: color-mix(in srgb, var(--ink, #22303c) 7%, var(--ground)); } }
-@media (max-width: 999px) { .table:not(.three) { left: 24px; top: calc(48px * var(--type, 1) + 12px); } }
 .menu { position: absolute; right: 16px; top: calc(100% + 4px); display: grid; gap: 8px; padding: 12px; border-radius: 8px; background: var(--card, #fff);
   border: 1px solid var(--rule, #d8dce0); box-shadow: 0 6px 24px #0004; }
 .menu label { display: flex; gap: 8px; align-items: center; min-height: calc(32px * var(--type, 1)); padding: 0 12px; cursor: pointer; } .menu > button { text-align: left; }
@@ -40,7 +35,6 @@ select { border: 0; background: var(--ground); min-height: calc(32px * var(--typ
   .row { padding: 0 4px 0 16px; } .toy { flex: 1; max-width: none; } .row > .grow { display: none; } .icon, .menu button, .menu label { min-height: 44px; } .icon { width: 44px; }
   nav { position: fixed; inset: auto 0 0; z-index: 20; background: var(--ground); border-top: 1px solid var(--rule, #d8dce0); padding-bottom: env(safe-area-inset-bottom); }
   .tabs > div { display: grid; grid-auto-flow: column; grid-auto-columns: 1fr; } .tabs button { padding: 0 2px; min-height: 52px; font-size: calc(12px * var(--type, 1)); }
-  .tabs [aria-selected=true]::after { inset: 0 4px auto; } .rooms { padding: 8px 12px 0; overflow-x: auto; } .rooms:not(.table) button { white-space: normal; padding: 4px 10px; }
-  .table:not(.three) { left: 20px; top: calc(48px * var(--type, 1) + 8px); padding: 3px; } .table b { display: none; } .table button { padding: 0 9px; min-height: 44px; }
+  .tabs [aria-selected=true]::after { inset: 0 4px auto; } .rooms { padding: 8px 12px 0; overflow-x: auto; } .rooms button { white-space: normal; padding: 4px 10px; }
 }
 `;

@@ -1,5 +1,5 @@
-"""What happened in a run of the three planes, and when, determined from the run: marks in its tilt and spin, and the
-events of its contacts."""
+"""What happened in a run, and when, determined from the run: marks in its tilt and spin, and the events of its
+contacts."""
 
 from typing import NamedTuple
 
@@ -8,7 +8,6 @@ import numpy as np
 from app.model.events import happened
 from app.model.motion import Motion
 from app.model.phases import carried
-from app.model.planes.picture import SHORT
 from app.model.regimes import NAMES
 from app.model.run import TableMotion
 from app.text import listed, say
@@ -16,6 +15,7 @@ from app.text import listed, say
 OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")
 """Events of the story that are listed as those of its contacts."""
 MOST = 16
+SHORT = 0.05  # s: a touch or hop that is too short to be seen
 ON = {"both": "both", "stem": "stem", "none": "air"}
 
 

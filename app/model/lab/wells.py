@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.motion import Motion
-from app.model.planes.picture import SHORT, Picture
-from app.model.setup import TABLES
-from tippe_core import SteadyStates, Stretch, Top, jellett_potential, steady_states
+from app.model.lab.moments import SHORT
+from app.model.run import TableMotion
+from app.model.setup import Setup
+from tippe_core import SteadyStates, Stretch, Top, jellett_potential, outcome, steady_states
 from tippe_core.types import Array, Bools, Indices
 
 POINTS = 361  # of a curve, a half degree apart
@@ -62,11 +62,11 @@ NONE = np.zeros(0)
 NOWHERE = Path(NONE, NONE, NONE, NONE, np.zeros(0, int))
 
 
-def intervals(picture: Picture, plane: str) -> tuple[Interval, ...]:
-    """The Intervals of the motion on a plane that are longer than SHORT, because a second contact changes C_J; if there
-    is none, one with the C_J of the start."""
-    motion, shortest = picture.motions[plane], SHORT / picture.settings.scales.time
-    at_first = picture.outcome.C_J, picture.outcome.steady
+def intervals(motion: TableMotion | None, start: Setup) -> tuple[Interval, ...]:
+    """The Intervals of a motion that are longer than SHORT, because a second contact changes C_J; if there is none, one
+    with the C_J of the start."""
+    shortest, first = SHORT / start.scales.time, outcome(start.top, start.state)
+    at_first = first.C_J, first.steady
     if motion is None:
         return (Interval(0.0, 0.0, *at_first),)
     moved = motion.trajectory
@@ -74,15 +74,15 @@ def intervals(picture: Picture, plane: str) -> tuple[Interval, ...]:
     spells = motion.ending.stretches if motion.ending else (Stretch(moved.t[0], moved.t[-1], "ball"),)
     for free, group in groupby(spells, key=lambda spell: spell.on in ("ball", "air")):
         group = list(group)
-        start, end = group[0].start, group[-1].end
-        inside = (moved.t >= start) & (moved.t <= end)
-        if free and inside.any() and (end - start > shortest or not found):
+        begin, end = group[0].start, group[-1].end
+        inside = (moved.t >= begin) & (moved.t <= end)
+        if free and inside.any() and (end - begin > shortest or not found):
             C_J = float(np.median(moved.jellett[inside]))
-            found.append(Interval(start, end, C_J, steady_states(moved.top, C_J)))
+            found.append(Interval(begin, end, C_J, steady_states(moved.top, C_J)))
     return tuple(found) or (Interval(-1.0, -1.0, *at_first),)
 
 
-def path(motion: Motion | None, found: tuple[Interval, ...]) -> Path:
+def path(motion: TableMotion | None, found: tuple[Interval, ...]) -> Path:
     if motion is None:
         return NOWHERE
     moved = motion.trajectory
@@ -105,9 +105,8 @@ def well(top: Top, one: Interval, E: Array) -> Well:
                 heights=jellett_potential(one.steady.theta, top, one.C_J), stable=one.steady.stable)  # fmt: skip
 
 
-def wells(picture: Picture, plane: str) -> tuple[tuple[Well, ...], Path]:
-    """The wells of a plane (for "three", of the sliding one), and the path of the bead through them."""
-    plane = plane if plane in TABLES else "ordinary"
-    motion, found = picture.motions[plane], intervals(picture, plane)
+def wells(motion: TableMotion | None, start: Setup) -> tuple[tuple[Well, ...], Path]:
+    """The wells of a motion from this start, and the path of the bead through them."""
+    found = intervals(motion, start)
     bead = path(motion, found)
-    return tuple(well(picture.settings.top, one, bead.E[bead.which == k]) for k, one in enumerate(found)), bead
+    return tuple(well(start.top, one, bead.E[bead.which == k]) for k, one in enumerate(found)), bead

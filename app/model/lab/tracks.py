@@ -1,4 +1,4 @@
-"""The quantities that the three planes show over time, in the units of the page: degrees, rev/s, cm/s, s; forces in M
+"""The quantities of a run that are shown over time, in the units of the page: degrees, rev/s, cm/s, s; forces in M
 g, energies in M g R."""
 
 from itertools import pairwise

@@ -1,4 +1,4 @@
-// The three planes: lines at the time of the clock, and the top as a bead in its present well. Not synced.
+// A run: lines at the time of the clock, and the top as a bead in its present well. Not synced.
 import { clamp, rowBefore, valueAt } from "./curves.js";
 import { followClock, isFollowed } from "./seeking.js";
 
@@ -23,9 +23,20 @@ function showWell({ wells, steady, none, range }, which) {
   if (which >= 0) quietly(range, { start: low[which], end: high[which] });
 }
 
-/** @param {Record<"path" | "bead" | "wells" | "steady", Source> & Record<"none" | "range", BokehModel> & { spans: BokehModel[], clock: string }} given */
-export function followPlanes(given) {
-  const { spans, path, bead, none, clock } = given;
+// The lines at the present time; the time axis turns a page where they leave it.
+/** @param {{ spans: BokehModel[], path: Source, range: BokehModel, clock: string }} given path: its tags have the unit of time */
+export function followSpans({ spans, path, range, clock }) {
+  if (isFollowed(path)) return;
+  followClock((t) => {
+    const now = t * path.tags[0], { start, end } = range, page = end - start;
+    for (const span of spans) quietly(span, { location: now });
+    if (now < start || now > end) quietly(range, { start: page * Math.floor(now / page), end: page * (Math.floor(now / page) + 1) });
+  }, clock);
+}
+
+/** @param {Record<"path" | "bead" | "wells" | "steady", Source> & Record<"none" | "range", BokehModel> & { clock: string }} given */
+export function followWell(given) {
+  const { path, bead, none, clock } = given;
   if (isFollowed(path)) return;
   let now = 0;
   /** @type {number | null} */
@@ -43,7 +54,6 @@ export function followPlanes(given) {
   });
   followClock((t) => {
     now = t * path.tags[0];
-    for (const span of spans) quietly(span, { location: now });
     placeBead();
   }, clock);
 }

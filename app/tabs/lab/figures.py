@@ -1,5 +1,5 @@
-"""The figures of the three planes: the motion over time, the well in which the top moves like a bead, the map of all
-tops."""
+"""The figures of the Lab at the level "Research": the motion over time, the well in which the top moves like a bead,
+the map of all tops."""
 
 import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, Label, MultiLine, Range1d, Scatter, Segment, Span, Text
@@ -8,16 +8,16 @@ from app.bundle import call
 from app.model.build.dimensions import named
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.families.groups import areas
-from app.model.planes.tracks import QUANTITIES, ledger, tracks
-from app.model.planes.wells import wells
+from app.model.lab.tracks import QUANTITIES, ledger, tracks
+from app.model.lab.wells import wells
 from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
 from app.model.setup import TABLES
-from app.tabs.planes.words import LOOKS
+from app.tabs.lab.words import LOOKS
 from app.text import listed, say, written
 from app.widgets.plots import draw, on_click, on_pointer, plain
 from tippe_core import PRESETS as BODIES
 
-CLOCK = "planes"
+CLOCK = "lab"
 IN_RIBBON = (ROLLS, SLIPS, GLIDES, FLIES, WOULD_LIFT, ENDS)
 LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
           "height": COLOURS["jellett"], "heat": COLOURS["friction"]}  # fmt: skip
@@ -56,22 +56,28 @@ class Figures:
         }
         self.energies = ColumnDataSource({name: [] for name in ("t", *LEDGER)})
         self.figures["ledger"].varea_stack(list(LEDGER), x="t", color=list(LEDGER.values()), source=self.energies)
+        self.unit = ColumnDataSource(tags=[1.0])  # s in one unit of the clock's time
         self.ribbons = ColumnDataSource({name: [] for name in ("start", "end", "low", "high", "colour")})
         self.figures["regime"].quad(
             left="start", right="end", bottom="low", top="high", fill_color="colour", line_color=None,
             source=self.ribbons,
         )  # fmt: skip
+        self.figures["theta"].js_on_change(
+            "inner_width", call("followSpans", spans=self.spans, path=self.unit, range=self.x_range, clock=CLOCK)
+        )
+        for fig in self.figures.values():
+            on_pointer(fig, call("seekAlong", path=self.unit, clock=CLOCK))
 
-    def show(self, picture):
-        """Draws all curves of a new Picture."""
-        scales = picture.settings.scales
+    def show(self, scene, until=np.inf):
+        """Draws the motions of a LabScene, at first up to a time (s)."""
+        scales, end = scene.start.scales, 0.0
         ribbons = []
         for plane in TABLES:
-            motion = picture.motions[plane]
+            motion = scene.motions[plane]
             if motion is None:
                 self.curves[plane].data = {name: [] for name in self.curves[plane].data}
                 continue
-            found = tracks(motion, scales)
+            found, end = tracks(motion, scales), max(end, float(motion.t[-1]) * scales.time)
             self.curves[plane].data = {f"t_{name}": track.t for name, track in found.items()} | {
                 name: track.value for name, track in found.items()
             }
@@ -84,16 +90,10 @@ class Figures:
             "high": [i + 0.9 for i in row],
             "colour": [COLOUR[int(which)] for *_, which in ribbons],
         }
-        self.x_range.update(start=0, end=picture.settings.seconds)
-
-    def look(self, picture, plane):
-        """Shows one plane, and the others faintly where the comparison is useful; or all planes."""
-        for (which, name), line in self.lines.items():
-            line.visible = plane in (which, "three") or name in ("theta", "omega3")
-            line.glyph.line_alpha = 1 if plane in (which, "three") else 0.3
-            line.glyph.line_width = 2.5 if which == plane else 1.5
+        self.unit.tags = [scales.time]
+        self.x_range.update(start=0, end=min(end, until))
         for name in QUANTITIES:
-            shown = [self.curves[which].data[name] for which in TABLES if self.lines[which, name].visible]
+            shown = [self.curves[which].data[name] for which in TABLES]
             shown = np.concatenate([values for values in shown if len(values)] or [np.zeros(1)])
             low, high = float(shown.min()), float(shown.max())
             low = min(0.0, low) if name != "omega3" else low
@@ -101,13 +101,13 @@ class Figures:
                 high = max(1.5, high)
             pad = 0.08 * (high - low) or 0.05 * (1 + abs(high))
             self.figures[name].y_range.update(start=low - pad, end=high + pad)
-        row = TABLES.index(plane) if plane in TABLES else None
+        row = TABLES.index(scene.table) if scene.table in TABLES else None
         self.figures["regime"].y_range.update(start=row or 0, end=len(TABLES) if row is None else row + 1)
-        motion = picture.motions[plane if plane in TABLES else "ordinary"]
+        motion = scene.motions[scene.table if scene.table in TABLES else "ordinary"]
         if motion is None:
             self.energies.data = {name: [] for name in ("t", *LEDGER)}
             return
-        t, parts = ledger(motion, picture.settings.scales)
+        t, parts = ledger(motion, scales)
         self.energies.data = {"t": t} | parts
         self.figures["ledger"].y_range.update(start=0, end=1.05 * float(sum(parts.values()).max()) or 1.0)
 
@@ -137,9 +137,22 @@ class Well:
         self.none = Label(x=90, y=0, y_offset=60, text=say("planes.keys.no_well"), text_align="center",
                           text_color=COLOURS["friction"], text_font_size="14px", visible=False)  # fmt: skip
         fig.add_layout(self.none)
+        fig.js_on_change(
+            "inner_width",
+            call(
+                "followWell",
+                path=self.path,
+                bead=self.bead,
+                wells=self.wells,
+                steady=self.steady,
+                none=self.none,
+                range=fig.y_range,
+                clock=CLOCK,
+            ),
+        )
 
-    def show(self, picture, plane):
-        found, bead = wells(picture, plane)
+    def show(self, scene):
+        found, bead = wells(scene.motions[scene.table if scene.table in TABLES else "ordinary"], scene.start)
         lows, highs = zip(*(padded(well.low, well.high) for well in found), strict=True)
         self.wells.data = {"theta": [np.degrees(well.theta) for well in found], "V": [well.V for well in found],
                            "alpha": [1.0] + [0.0] * (len(found) - 1), "low": lows, "high": highs}  # fmt: skip
@@ -149,7 +162,7 @@ class Well:
         self.steady.data = {"theta": np.degrees(places), "V": V, "stable": stable.astype(float), "well": which,
                             "fill": stable * (which == 0.0), "alpha": (which == 0).astype(float)}  # fmt: skip
         self.figure.y_range.update(start=lows[0], end=highs[0])
-        scale = picture.settings.scales.time
+        scale = scene.start.scales.time
         self.path.tags = [scale]
         self.path.data = {"t": bead.t * scale, "theta": np.degrees(bead.theta), "V": bead.V, "E": bead.E,
                           "well": bead.which}  # fmt: skip
@@ -236,13 +249,3 @@ class Map:
     def show(self, top):
         ratio = top.I1 / top.I3
         self.here.data = {"x": [np.clip(top.a, MAP_X[0] + 0.03, MAP_X[1])], "y": [np.clip(ratio, *MAP_Y)]}
-
-
-def follow_clock(figures, well):
-    """Has the browser move the lines of the Figures and the bead of the Well with the clock; dragging one of them sets
-    the clock."""
-    follow = call("followPlanes", spans=figures.spans, path=well.path, bead=well.bead, wells=well.wells,
-                  steady=well.steady, none=well.none, range=well.figure.y_range, clock=CLOCK)  # fmt: skip
-    well.figure.js_on_change("inner_width", follow)
-    for figure in figures.figures.values():
-        on_pointer(figure, call("seekAlong", path=well.path, clock=CLOCK))

@@ -1,1 +1,0 @@
-"""One top on the three planes: rough, smooth, and with sliding friction."""

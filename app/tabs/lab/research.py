@@ -1,0 +1,201 @@
+"""What the Lab shows beside its stage at the level "Research": the paper's figures and inputs of the start, and more of
+the run on the stage."""
+
+from functools import partial
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+import param
+
+from app.model.colours import COLOURS
+from app.model.lab.moments import moments
+from app.model.lab.nudged import hits, nudged
+from app.model.regimes import COLOUR, NAMES
+from app.model.runs import LATER, Run, Stopped
+from app.model.setup import TABLES
+from app.state.names import PANELS
+from app.tabs.lab.figures import IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well
+from app.tabs.lab.rolling import Rolling
+from app.tabs.lab.words import LOOKS, ball_words, run_words, scatter_words, table_words
+from app.text import say, written
+from app.widgets.cards import PLAIN, swatch, words
+from app.widgets.moments import Moments
+
+AUTO, WHOLE = "auto", {"height": "max-content", "max-height": "none"}
+AROUND = ":host { padding: 12px 24px 12px 0 } @media (max-width: 999px) { :host { padding: 12px 16px } }"
+TABLE = (
+    f":host {{ --kept: {COLOURS['normal']} }}"
+    + """
+table { border-collapse: collapse; margin: 6px 0 0; font-size: inherit }
+td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
+th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: var(--kept) }
+.line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
+"""
+)
+
+
+class Research(param.Parameterized):
+    """view: the panels, one of which is shown, and the inputs. Each is created when it is first shown, and draws only
+    while it is.
+
+    pacer: the page's Pacer; lab: its Lab; runs: its Runs; controls: the view of the inputs of a rolling motion; choose:
+    called with the name of a body. open: whether the page shows it.
+    """
+
+    panel = param.Selector(default=AUTO, objects=[AUTO, *PANELS], doc='the panel; "auto": as fits the table')
+
+    def __init__(self, pacer, lab, runs, controls, choose):
+        super().__init__()
+        self._pacer, self._lab, self._runs, self._choose = pacer, lab, runs, choose
+        self._made, self._drawn, self._open = {}, {}, False
+        options = {say(f"research.panels.{name}"): name for name in PANELS}
+        self._switch = pmui.RadioButtonGroup(options=options, label="", size="small", margin=(0, 0, 4, 0), sx=PLAIN)
+        self._switch.param.watch(self._chosen, "value")
+        self._places = {
+            name: pn.Column(sizing_mode="stretch_width", margin=0, visible=False, styles=WHOLE) for name in PANELS
+        }
+        self.rolling = Rolling(pacer, runs, lambda: lab.ask(table="ordinary"))
+        self.view = pn.Column(self._switch, *self._places.values(), controls, sizing_mode="stretch_width", margin=0,
+                              stylesheets=[AROUND])  # fmt: skip
+        self._makers = {
+            "which": self.rolling.plane, "surface": self.rolling.surface, "portraits": self.rolling.portraits,
+            "time": self._make_times, "values": self._make_values, "ends": self._make_ends,
+        }  # fmt: skip
+        for when in ("hand", "pictures", "rest", "still"):
+            pacer.shows(partial(self._on_scene, when), when)
+        lab.param.watch(lambda event: self._on_run(), "scene")
+        self.param.watch(lambda event: self._look(), "panel")
+        lab.start.param.watch(lambda event: self._look(), "table")
+
+    @property
+    def shown(self):
+        """The panel that is shown."""
+        usual = "which" if self._lab.start.table == "rough" else "time"
+        return usual if self.panel == AUTO else self.panel
+
+    @property
+    def open(self):
+        return self._open
+
+    @open.setter
+    def open(self, is_open):
+        self._open = is_open
+        if is_open:
+            self._lab.start.settle()
+            self._look()
+
+    def _chosen(self, event):
+        if event.new != self.shown:
+            self.panel = event.new
+
+    def _look(self):
+        """Shows the panel, with all that has happened since it was last shown."""
+        if not self._open:
+            return
+        name = self.shown
+        with pn.io.hold():
+            self._switch.value = name
+            if name not in self._made:
+                content, draws = self._makers[name]()
+                self._made[name] = draws
+                self._places[name].objects = content
+            for each, place in self._places.items():
+                place.visible = each == name
+            for when in self._made[name]:
+                self._draw(when)
+
+    def _on_scene(self, when, scene):
+        self._draw(when)
+
+    def _on_run(self):
+        if self._open:
+            self._lab.start.settle()  # how it would roll is seen here
+            self._draw("lab")
+
+    def _draw(self, when):
+        """Draws what the panel shows at this occasion, unless it is drawn."""
+        draw = self._made.get(self.shown, {}).get(when) if self._open else None
+        scene = self._lab.scene if when == "lab" else self._lab.start.scene
+        if draw is None or scene is None or self._drawn.get(draw) is scene:
+            return
+        self._drawn[draw] = scene
+        draw(scene)
+
+    # ---- panels of the run: their content, and what draws it ----
+
+    def _make_times(self):
+        figures = Figures()
+
+        def row(label, figure, height):
+            return pn.Row(
+                words(f'<div class="quantity">{label}</div>', width=52, sizing_mode="stretch_height",
+                      margin=(6, 0, 0, 0)),
+                pn.pane.Bokeh(figure, sizing_mode="stretch_both", margin=0),
+                sizing_mode="stretch_width", height=height, margin=0,
+            )  # fmt: skip
+
+        shown = figures.figures
+        tables = "".join(swatch(colour, say(f"planes.looks.{table}")) for table, colour in LOOKS.items())
+        ledger = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
+        regimes = "".join(swatch(COLOUR[code], say(f"regimes.stretch.{NAMES[code]}")) for code in IN_RIBBON)
+        content = [
+            words(f'<div class="key">{tables}</div>'),
+            *(row(say(f"planes.quantities.{name}"), shown[name], 96) for name in QUANTITIES),
+            words(f'<div class="key" style="margin-top: 6px">{say("planes.keys.ledger")}{ledger}</div>'),
+            row(say("planes.keys.energy"), shown["ledger"], 130),
+            words(f'<div class="key" style="margin-top: 6px">{regimes}</div>'),
+            row("", shown["regime"], 56),
+            words(f'<div class="axis">{say("planes.keys.time")}</div>'),
+        ]
+        return content, {"lab": lambda scene: figures.show(scene, self._span(scene))}
+
+    def _span(self, scene):
+        """For how long (s) the motion is drawn at first: some nods, if that is all that it does."""
+        rolling = self._lab.start.scene
+        return rolling.trajectory.t[-1] * rolling.scales.time if scene.table == "rough" else np.inf
+
+    def _make_values(self):
+        happened = Moments(clock="lab", sizing_mode="stretch_width", margin=(4, 0, 0, 0))
+        kept, scatters, of_run = words(style=TABLE), words(style=TABLE), words()
+
+        def show(scene):
+            table = scene.table if scene.table in TABLES else "ordinary"
+            happened.rows = [[t, f"{written(seconds, '.2f')} s", word, more]
+                             for t, seconds, word, more in moments(scene.motions[table])]  # fmt: skip
+            kept.object = table_words(scene)
+            of_run.object = f'<div class="key">{run_words(scene.start, table)}</div>'
+            scatters.object = ""
+            motion = scene.motions["ordinary"]
+            if hits(motion):
+                self._runs.begin(Run(lambda run: nudged(motion, run.look), partial(scattered, motion)), "nudged", LATER)
+
+        def scattered(motion, growth):
+            if isinstance(growth, float) and self._lab.scene.motions["ordinary"] is motion:
+                scatters.object = f'<div class="says">{scatter_words(growth)}</div>'
+            elif isinstance(growth, Exception) and not isinstance(growth, Stopped):
+                raise growth
+
+        title = words(f"<h2>{say('planes.moments.title')}</h2>")
+        return [title, happened, scatters, kept, of_run, self.rolling.kept], {"lab": show, "rest": self.rolling.say}
+
+    def _make_ends(self):
+        well, tops, says = Well(), Map(self._pick, self._choose), words()
+
+        def show(scene):
+            well.show(scene)
+            tops.show(scene.start.top)
+            says.object = ball_words(scene)
+
+        def pane(figure, height):
+            return pn.pane.Bokeh(figure, sizing_mode="stretch_width", height=height, margin=0)
+
+        def head(name):
+            return words(f'<h2>{say(f"planes.cards.{name}")}</h2><div class="key">{say(f"planes.keys.{name}")}</div>')
+
+        content = [head("well"), pane(well.figure, 240), says, head("map"), pane(tops.figure, 360)]
+        return content, {"lab": show}
+
+    def _pick(self, a, ratio):
+        """Asks for the top with this a and I1/I3, and the present I3."""
+        self._pacer.ask(a=a, I1=ratio * self._lab.start.scene.top.I3)

@@ -1,0 +1,149 @@
+"""The pictures of the rolling motion: Figs. 5 and 6, portraits."""
+
+from functools import partial
+
+import panel as pn
+import panel_material_ui as pmui
+
+from app.borrowed import at_once
+from app.model.hands import pulled
+from app.state import asked
+from app.text import say
+from app.widgets.cards import PLAIN, words
+from app.widgets.controls import named
+from app.widgets.plane_card import PlaneCard
+from app.widgets.plots import Motion
+from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
+from app.widgets.said import said
+from app.widgets.surface3d import Surface3D, show_surface
+from app.widgets.typeset import power
+
+HIGH = "calc(var(--type, 1) * clamp(420px, 100vh - 400px, 700px))"  # of a panel
+HALF = 330  # px: of two portraits
+
+
+def unit_words(scene):
+    unit = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
+    return f'<div class="axis">{unit}</div>'
+
+
+def kept_words(scene):
+    """How well the constants, recomputed from the motion, are conserved."""
+    return f'<div class="axis key">{say("roll.says.kept", drift=power(scene.drift))}</div>'
+
+
+class Switch:
+    """A choice of several portraits, one at a time; each is created when it is first shown. soon: that of a Pacer."""
+
+    def __init__(self, title, *kinds, soon):
+        self._kinds, self._made, self._scene = kinds, {}, None
+        self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
+        self._says = said(styles={"min-height": "2.8em"})
+        self._switch = pmui.RadioButtonGroup(
+            options={say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)},
+            value=0,
+            label="",
+            size="small",
+            margin=(6, 0, 2, 0),
+            sx=PLAIN,
+        )
+        self._switch.param.watch(lambda event: soon(partial(self._look, event.new)), "value")
+        self.view = pn.Column(words(f"<h2>{title}</h2>"), self._switch, *self._places, self._says,
+                              sizing_mode="stretch_width", height=HALF, margin=0)  # fmt: skip
+
+    def _look(self, chosen):
+        if chosen not in self._made:
+            kind = self._kinds[chosen]
+            portrait = self._made[chosen] = kind()
+            across, up = portrait.axes
+            self._places[chosen].objects = [
+                words(up),
+                pn.pane.Bokeh(portrait.figure, sizing_mode="stretch_both", margin=0),
+                words(f'<div class="axis">{across}</div>'),
+            ]
+        self.show(self._scene)
+        for i, place in enumerate(self._places):
+            place.visible = i == chosen
+
+    def show(self, scene):
+        """Draws the chosen picture."""
+        self._scene = scene
+        chosen = self._switch.value
+        if chosen not in self._made:
+            return self._look(chosen)
+        self._made[chosen].show(scene)
+        self._says.text = self._made[chosen].words(scene)
+
+
+class Rolling:
+    """plane(), surface() and portraits() return the content of a panel, and {when: what draws a scene in it}, as of a
+    Pacer. pacer: takes requests; runs: the page's Runs; slip: shows this motion on a table on which it slips."""
+
+    def __init__(self, pacer, runs, slip):
+        self._pacer, self._runs, self._slip, self._scene = pacer, runs, slip, None
+        self.kept = said()
+
+    def plane(self):
+        motion = Motion()
+        card = PlaneCard(motion, self._pacer.ask, self._slip, self._runs)
+        card.plane.hand.on_change("data", self._on_plane)
+
+        def select(scene):
+            self._scene = scene
+            card.show_selected(scene)
+
+        def draw(scene):
+            motion.show(scene)
+            card.plane.show_plane(scene)
+
+        place = pn.Column(*card.content, sizing_mode="stretch_width", margin=0, styles={"height": HIGH})
+        return [place], {"hand": select, "pictures": draw, "still": card.show_path}
+
+    def surface(self):
+        surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])
+        at_once(surface, "hand")
+        surface.param.watch(asked.heard(self._on_surface), ["hand", "picked"])
+
+        def draw(scene):
+            self._scene = scene
+            show_surface(surface, scene)
+
+        title = words(f"<h2>{say('roll.cards.floor', height=named('height'), plane=plane_symbols())}</h2>")
+        place = pn.Column(title, surface, sizing_mode="stretch_width", margin=0, styles={"height": HIGH})
+        return [place], {"pictures": draw}
+
+    def portraits(self):
+        switches = [Switch(say(f"roll.cards.{name}"), *kinds, soon=self._pacer.soon)
+                    for name, *kinds in (("tilt", Phase, Curve, Potential), ("table", Track, Ring, Force))]  # fmt: skip
+
+        def draw(scene):
+            for switch in switches:
+                switch.show(scene)
+
+        return [switch.view for switch in switches], {"pictures": draw}
+
+    def say(self, scene):
+        """Says what a unit of time is, and how well the constants are conserved."""
+        self.kept.text = unit_words(scene) + kept_words(scene)
+
+    # ---- requests by hand ----
+
+    def _grabbed(self, grip, theta, K_J, limit):
+        """A request from the (K_J, theta) plane; limit: that of the tielines in the picture."""
+        self._pacer.ask(**pulled(self._scene, grip, theta, K_J, limit))
+
+    def _on_plane(self, attr, old, new):
+        match new:  # a client other than the page may send anything
+            case {"grip": [str() as grip], "theta": [int() | float() as theta], "K_J": [int() | float() as K_J]}:
+                self._grabbed(grip, theta, K_J, "slip")
+
+    def _on_surface(self, event):
+        if event.name == "hand":
+            grip, theta, K_J = asked.parts(event.new, asked.text, asked.number, asked.number)
+        else:
+            grip, (K_J, theta) = "tieline", asked.parts(event.new, asked.number, asked.number)
+        self._grabbed(grip, theta, K_J, self._scene.plane.limit)
+
+
+def plane_symbols():
+    return f"({named('K_J')}, {named('angle')})"

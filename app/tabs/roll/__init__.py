@@ -1,1 +1,0 @@
-"""A top that rolls without slipping."""
