@@ -141,7 +141,7 @@ def lab(alone, monkeypatch):
         found.lab.start.param.update(**dict(start))
         found.lab.show()
         found.lab.rest()
-        found.show(LabTab(found.lab, None, None).view)
+        found.show(LabTab(found.lab, None).view)
         found.page.wait_for_function(f"{TOPS}.some((top) => top.pictures && top.count)")
         return found
 

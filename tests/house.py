@@ -1,14 +1,14 @@
 """Models and views put together as on the page, but without a page: every request is carried out at once."""
 
-import re
 from dataclasses import replace
-from functools import cache, wraps
+from functools import wraps
 
 from app.model.build.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes.planes import Planes, preset
-from app.model.planes.run import solve
-from app.tabs.planes.words import fate
+from app.model.lab.lab import Lab, scene_of
+from app.model.start import of_toy
+
+PAPERS = "The paper's tippe top"
 
 
 def builder_of(explorer):
@@ -18,46 +18,29 @@ def builder_of(explorer):
     return builder
 
 
-def planes_of(explorer, runs=None):
-    """Visible Planes with the top of this Explorer, started as in Start."""
-    explorer.param.update(given="hand", **{name: Explorer.param[name].default for name in Explorer.GIVEN["hand"]})
-    planes = Planes(explorer, runs)
-    planes.show()
-    return planes
+def lab_of(explorer, runs=None):
+    """A visible Lab with this start."""
+    lab = Lab(runs, explorer)
+    lab.show()
+    return lab
 
 
-def choose(name, explorer, planes):
-    """Chooses a preset of the three planes."""
-    body, inputs = preset(name)
-    builder_of(explorer).choose(body)
-    planes.ask(**inputs)
+def by_hand(body=PAPERS, **changes):
+    """The Setup of a known body let go by a hand: 20 rev/s, 10 degrees, smoothed friction, for 5 s; and changes."""
+    return replace(Explorer(**of_toy(body), given="hand").setup, **{"seconds": 5.0} | changes)
 
 
-def chosen(explorer, planes, name):
-    """The Picture of a preset of the three planes."""
-    choose(name, explorer, planes)
-    assert not planes.picture.messages
-    return planes.picture
+def ran(body=PAPERS, **changes):
+    """(LabScene, sentences) of the runs of by_hand() on the three tables, and all that is said of the ordinary one."""
+    scene = scene_of("three", by_hand(body, **changes))
+    return scene, told(scene, "ordinary")
 
 
-def ran(usual, **settings):
-    """A Picture with some settings changed, and the sentence about it, without markup."""
-    picture = solve(replace(usual.settings, **settings))
-    return picture, re.sub(r"<[^>]*>", "", fate(picture, "ordinary"))
-
-
-@cache
-def first_of(body):
-    """The default Settings with this body."""
-    explorer = Explorer()
-    builder = builder_of(explorer)
-    builder.choose(body)
-    return planes_of(explorer).picture.settings
-
-
-def of(body, **settings):
-    """The default Settings with this body, and some changed."""
-    return replace(first_of(body), **settings)
+def told(scene, table):
+    """All that is said of the run on a table."""
+    if table in scene.refused:
+        return scene.refused[table]
+    return " ".join(f"{stage.headline} {stage.why}" for stage in scene.stories[table].stages)
 
 
 def keeping(made, make):

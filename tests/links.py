@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import panel as pn
 from bokeh.document import Document
-from met import kept, opens
+from met import is_today, kept, opens, room_of, speed_of, today
 from panel.io.state import set_curdoc
 
 from app import text
@@ -32,7 +32,7 @@ FILE = Path(__file__).parent / "data" / "links.json"
 
 MOTION = ("by", "KJ", "KR", "e", "E", "th", "thd", "w2", "w3", "phi", "psi")
 HANDS = ("spin", "tilt", "slip")
-BESIDE = (*HANDS, "law", "mu_k", "mu_stick", "gamma", "mu_smooth", "eps", "patch", "land", "stem", "seconds", "plane")
+BESIDE = (*HANDS, "law", "mu_k", "mu_stick", "gamma", "mu_smooth", "eps", "patch", "land", "stem", "plane")
 """What the three planes had of their own, beside a start and a friction of what rolls."""
 
 
@@ -41,8 +41,11 @@ def known():
     view had of its own that the link did not open is left out, and so is what had no effect in the one it did."""
     found = kept_links()
     found["?v=2&KJ=6.7"]["said"] = ""  # this version did not exist then
-    for what in found.values():
+    for link, what in found.items():
         settings = what["settings"]
+        settings.pop("seconds", None)  # a run now goes on to its end
+        if "slow" in settings and "slow=" not in link:
+            settings["slow"] = speed_of(link)
         step = settings.get("step")
         if step in lesson.BEFORE:
             settings["step"] = lesson.BEFORE[step]
@@ -77,7 +80,7 @@ def met_links():
     del found["?v=3&KJ=6.7&mu=.4"]  # this version did not exist then
     for what in found.values():
         what.pop("written so", None)  # as it was worded then
-    return found
+    return {link: today(link, what) for link, what in found.items()}
 
 
 def written():
@@ -100,8 +103,10 @@ def opened(link):
         settings = {field.key: plain(field.codec, getattr(owner, name))
                     for _, owner, fields in parts if owner is not seen for name, field in fields.items()}  # fmt: skip
         settings["dark"] = bool(settings["dark"])  # None if nobody has chosen: then the system decides
-        planes, hand = seen.room == "three-planes", explorer.given == "hand"
-        del settings["table"]
+        room, hand = room_of(link), explorer.given == "hand"
+        planes = room == "three-planes"
+        for name in ("table", "panel"):  # of which those links knew nothing
+            settings.pop(name, None)
         if planes:  # as in the three planes
             settings |= {"start": "spin" if hand else "constants", "plane": PLANE[explorer.table],
                          "mu_stick": explorer.mu_s, "mu_smooth": explorer.mu}  # fmt: skip
@@ -110,13 +115,13 @@ def opened(link):
             settings = {name: value for name, value in settings.items() if name not in BESIDE}
         found = {
             "language": text.spoken(),
-            "settings": {"face": face} | settings | {"tab": TABS.index(seen.room)},
+            "settings": {"face": face} | settings | {"tab": TABS.index(room) if is_today(room, seen) else seen.room},
             "body": {"R": scene.scales.R, "M": scene.scales.M, "height": float(np.ptp(scene.profile[:, 1]))},
             "top": asdict(scene.top),
             "motion": {name: float(getattr(scene.constants, name)) for name in ("K_J", "K_R", "E")},
             "turns": [float(theta) for theta in scene.turning],
             "wrong": sorted(scene.messages),
-            "said": keep.sentence.replace("lab, ", "").replace("a class, as", "a vote, as"),  # old names
+            "said": keep.sentence.replace("of lab, ", "of roll, three-planes, ").replace("a class, as", "a vote, as"),  # old names
         }  # fmt: skip
         for name in ("motion", "turns") if planes and hand else ():
             del found[name]

@@ -7,6 +7,7 @@ first lifts off or its stem touches: after an impact a motion may hang on the la
 import json
 from contextlib import ExitStack, contextmanager
 from unittest.mock import patch
+from urllib.parse import parse_qs
 
 import numpy as np
 import panel as pn
@@ -20,7 +21,7 @@ from app.model.runs import Runs
 from app.model.votes.classroom import Refused, Rooms
 from app.page import page
 from app.state.keep import Keep
-from app.state.names import of
+from app.state.names import ROOMS, of
 from app.tabs.learn.lesson import LessonView
 from app.tabs.learn.poll import Counter
 from app.tabs.learn.student import Phone
@@ -104,13 +105,54 @@ def noted(*kinds):
         yield made
 
 
+# ---- the two rooms that the Lab had at the level "Research", up to version 3 ----
+
+OLD = {"roll", "three-planes"}
+
+
+def texts_of(link):
+    return {name: text for name, [text, *_] in parse_qs(link.removeprefix("?"), keep_blank_values=True).items()}
+
+
+def room_of(link):
+    """The room that it opened when it was made."""
+    texts = texts_of(link)
+    is_look = {*texts} <= {"lang", "dark", "large"} and texts.get("lang", "en") in text.LANGUAGES
+    version = texts.get("v", "3" if is_look and texts else "1")
+    room = texts.get("tab", "lab" if version not in ("1", "2") else "roll")
+    return room if room in {*ROOMS, *OLD, "vote"} else "roll"
+
+
+def is_today(room, rooms):
+    """Whether these Rooms show what that room has become."""
+    return (rooms.room, rooms.level) == ("lab", "research") if room in OLD else rooms.room == room
+
+
+def speed_of(link):
+    """How fast the top plays, if the link does not say."""
+    return 1 / 16 if room_of(link) == "roll" else 0.0
+
+
+def today(link, what):
+    """What a link opens today, from what it opened: a run goes on to its end."""
+    if what.get("room") in OLD:
+        what = what | {"room": "lab", "level": "research"}
+    if "playing" in what and "slow=" not in link:
+        what = what | {"playing": what["playing"] | {"speed": speed_of(link)}}
+    if "said" in what:
+        what = what | {"said": what["said"].replace("roll, three-planes, ", "")}
+    if "run" in what:
+        what = what | {"run": {name: value for name, value in what["run"].items() if name != "seconds"}}
+    return what
+
+
 @contextmanager
 def kept(link, every=False):
     """A list of (Keep, owner, {parameter: Name}) of all that a page keeps. Of the views only those are made, at once,
     that keep something of this link or may set it back, because the others take most of the time; every: all that are
     looked at."""
     parts, add, fill = [], Keep.add, rooms.Place.fill
-    keeping = {"lab", "learn", "maps", "measure"} | ({"roll"} if "face=" in link else set())
+    keeping = {"lab", "learn", "maps", "measure"}
 
     def noted(keep, owner, *rest, **named):
         add(keep, owner, *rest, **named)
@@ -142,12 +184,12 @@ def opens(link):
             "body": json.loads(save_top(start.shape)), "mass": start.scene.scales.M,
             "top": {name: getattr(start, name) for name in ("a", "I1", "I3")},
             "start": start_of(start), "friction": friction_of(start),
-            "run": {"seconds": start.seconds, "landing": start.landing, "stem": start.stem},
+            "run": {"landing": start.landing, "stem": start.stem},
             "figures": {"part": str(start.upper), "limit": start.limit},
             "look": {name: bool(getattr(owners["Look"], name)) for name in ("dark", "large")},
-            "playing": playing_of(owners), "said": " ".join(filter(None, said)),
+            "playing": playing_of(owners, "face=" in link), "said": " ".join(filter(None, said)),
             "open": {name: of_view(owners[name]) for name, of_view in OF_VIEWS.items() if name in owners},
-            "motion": motion_of(start, room),
+            "motion": motion_of(start, float(texts_of(link).get("seconds", 5.0))),
         }  # fmt: skip
         return rounded(found)
 
@@ -190,9 +232,9 @@ def friction_of(start):
     return {"law": start.law} | numbers | {"mu_s": start.static}
 
 
-def playing_of(owners):
+def playing_of(owners, has_face):
     playing, clock = owners["Playing"], owners["Clock"]
-    face = {"face": owners["Controls"].face} if "Controls" in owners else {}
+    face = {"face": owners["Controls"].face} if has_face and "Controls" in owners else {}
     shows = [name for name, parameter in SHOWN.items() if getattr(playing, parameter)]
     return {"time": clock.at, "speed": playing.speed, "camera": playing.camera, "shows": shows} | face
 
@@ -233,16 +275,15 @@ OF_VIEWS = {"Learn": of_lesson, "MapChoice": of_map, "Filmed": of_film}
 # ---- the motion ----
 
 
-def motion_of(start, room):
-    """{table: numbers of the motion} on the table that is watched, or on all three."""
+def motion_of(start, seconds):
+    """{table: numbers of the motion} on the table that is watched, or on all three; up to this time."""
     top, scales = start.scene.top, start.shape.scales
     state = start.let_go
     edge = start.shape.edge if start.stem and start.scene.shape is not None else None
     friction = {"contact": lambda: Contensou(start.mu, 1e-3 * start.patch / scales.R),
                 "coulomb": lambda: Coulomb(start.mu, start.static), "viscous": lambda: Viscous(start.gamma),
                 "smoothed": lambda: SmoothedCoulomb(start.mu, start.eps)}[start.law]  # fmt: skip
-    seconds, landing = (5.0, "plastic") if room == "lab" else (start.seconds, start.landing)
-    on = {"ordinary": lambda: slid(top, state, friction(), scales, edge, seconds, landing),
+    on = {"ordinary": lambda: slid(top, state, friction(), scales, edge, seconds, start.landing),
           "rough": lambda: rolled(top, state, scales), "ice": lambda: glided(top, state, scales)}  # fmt: skip
     found = {}
     for table in on if start.table == "three" else (start.table,):

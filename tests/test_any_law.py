@@ -12,7 +12,7 @@ from app.model.lab.lab import Lab
 from app.model.setup import LAWS, TOYS
 from app.model.start import Start, arrives
 from app.state.keep import explorer_of, read
-from app.state.opened import level, opened
+from app.state.opened import opened
 from app.tabs.lab.lab import LabTab
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, State, Viscous, slide
 
@@ -29,7 +29,7 @@ def link(law, more="&tab=lab"):
 
 def start_of(query):
     texts, _ = read(query)
-    return explorer_of(texts, level(texts) == "explore")[0]
+    return explorer_of(texts)[0]
 
 
 @pytest.mark.parametrize("more", ["", "&tab=lab"])
@@ -115,9 +115,8 @@ def test_explore_research_and_back_is_the_same_start(law):
         seen.level = "research"
         house.keep.at_rest()
         texts = parse_qs(house.keep.query[1:])
-        assert texts["law"] == [law] if law != "smoothed" else "law" not in texts  # the default of that level
-        assert texts["mu"] == ["same"]
-        assert house.start._planes.picture.friction == scene.motions["ordinary"].start.friction
+        assert texts["law"] == [law] if law != "contact" else "law" not in texts
+        assert "mu" not in texts and house.lab_of.scene is scene
         with visitor(house.keep.query) as (other, _):
             assert other.explorer.setup == before
         seen.level = "explore"
@@ -150,7 +149,7 @@ def test_a_place_on_a_map_is_watched_with_the_contact_of_the_map():
 def test_the_page_says_which_law_it_is_and_has_its_inputs_only(law, inputs):
     lab = Lab(start=start_of(link(law)))
     lab.show()
-    tab = LabTab(lab, None, lambda: None)
+    tab = LabTab(lab, lambda: None)
     state, told = json.loads(tab.view.state), json.loads(tab.view.told)
     assert [name for name, *_ in told["rubs"]] == inputs
     assert bool(state["law"]) == (law != "contact") == told["said"][1].endswith("level Research.")

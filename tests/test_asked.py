@@ -8,11 +8,11 @@ from house import builder_of
 from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
-from app.model.playing import Playing
+from app.model.playing import Playing, together
 from app.state.codecs import Numbers
 from app.state.keep import Keep
 from app.tabs.build.build import Build
-from app.tabs.roll.roll import Roll
+from app.tabs.lab.rolling import Rolling
 from app.widgets.controls import Controls
 from app.widgets.pacing import Pacer
 from app.widgets.surface3d import Surface3D
@@ -72,15 +72,13 @@ def test_a_dial_passes_over_what_it_never_sends(explorer, pacer, value, one_line
 
 @pytest.mark.slow
 def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
-    roll = Roll(pacer, Playing(), Controls(explorer.scene, pacer.ask, pacer.soon).card())
-    while not roll.main.select(Surface3D):
-        pacer._later.pop(0)()
-    [surface], [top] = roll.main.select(Surface3D), roll.main.select(Top3D)
-    for part, name, right in ((top, "tilted", (0.5, 1.0, 2)), (surface, "hand", ("line", 0.5, 6.0)),
-                              (surface, "picked", (6.0, 0.5))):  # fmt: skip
+    [[place], draws] = Rolling(pacer, None, None).surface()
+    draws["pictures"](explorer.scene)
+    [surface] = place.select(Surface3D)
+    for name, right in (("hand", ("line", 0.5, 6.0)), ("picked", (6.0, 0.5))):
         for sent in lists(value, *right):
             if value != 1e308:  # unusual, but a number: it is answered like one
-                setattr(part, name, sent)
+                setattr(surface, name, sent)
     assert math.isfinite(explorer.scene.constants.K_J)
 
 
@@ -102,9 +100,9 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
 def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line):
     keep, playing = Keep(), Playing()
     controls = Controls(pacer._explorer.scene, pacer.ask, pacer.soon)
-    roll = Roll(pacer, playing, controls.card())
+    top = Top3D()
+    together(playing, top)
     keep.add(playing)
-    [top] = roll.main.select(Top3D)
     keep.add(controls)
     for owner, name in ((top, "camera"), (top, "speed"), (controls, "face")):
         before = getattr(owner, name)

@@ -9,9 +9,9 @@ from house import builder_of
 
 from app.model.build.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer
+from app.model.lab.examples import EXAMPLES as STARTS
 from app.model.motion import THROWN
-from app.model.planes.planes import PRESETS as STARTS
-from app.tabs.planes.words import outcome_words
+from app.tabs.lab.words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
 from tippe_core.motion.events import EVENTS, change

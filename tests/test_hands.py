@@ -4,16 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from house import builder_of, planes_of
+from house import builder_of, by_hand
 from scipy.spatial.transform import Rotation
 
 from app.model.explorer import Explorer
 from app.model.frames import in_space
-from app.model.hands import held, pulled
-from app.model.planes.run import solve as run
+from app.model.hands import pulled
 from app.model.playing import Playing, together
 from app.model.roll.levers import levers
-from app.tabs.planes.three_planes import ThreePlanes
+from app.model.run import on
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D
 from tippe_core import PRESETS, Coulomb, State, slide, turning_points
@@ -51,18 +50,6 @@ def test_a_hand_that_pulls_the_tieline_keeps_its_share():
     explorer = Explorer()
     explorer.param.update(**pulled(explorer.scene, "line", 0.5, 6.0, "slip"))
     assert explorer.K_J == 6.0 and explorer.scene.share == 0.9
-
-
-def test_a_hand_on_the_axis_tilts_the_pose_that_it_takes(explorer):
-    """The start that it sets is the motion's pose at that time, except for the tilt."""
-    scene = explorer.scene
-    t = 0.37 * scene.rolling.period
-    before = scene.rolling(np.array([0.0, t]))
-    explorer.param.update(theta=float(before.theta[1]), **held(scene, t), given="state")
-    after = explorer.scene.trajectory
-    turned = Rotation.from_quat(after.quaternion[0]) * Rotation.from_quat(before.quaternion[1]).inv()
-    assert turned.magnitude() < 1e-9
-    assert explorer.scene.omega[0] == pytest.approx(in_space(before)[1][1], abs=1e-9)
 
 
 def test_vectors_in_space_are_those_of_the_pose(explorer):
@@ -104,13 +91,15 @@ def test_the_spin_and_the_drift_that_are_said():
     assert replace(scene, K_R=wrong).drift == pytest.approx(1e-6, rel=1e-6)
 
 
-def test_the_slip_and_the_spin_of_a_start_are_the_runs():
-    settings = planes_of(Explorer()).picture.settings
-    for start in (State(0.3, 0.4, -0.2, 9.0, vx=-0.5, vy=0.2), State(1.2, -0.1, 0.3, -4.0, vx=0.0, vy=0.0)):
-        picture = run(replace(settings, rolling=start, seconds=0.01, stem=False, law="coulomb"))
-        moved = slide(settings.top, start, Coulomb(settings.mu, settings.mu_s), np.array([0.0, 1e-3]))
-        assert picture.slip == pytest.approx(settings.scales.velocity * np.hypot(*moved.slip[0]), rel=1e-9)
-        assert picture.turns == pytest.approx(start.omega3 / settings.scales.time / (2 * np.pi), rel=1e-12)
+@pytest.mark.parametrize(
+    "start", [State(0.3, 0.4, -0.2, 9.0, vx=-0.5, vy=0.2), State(1.2, -0.1, 0.3, -4.0, vx=0.0, vy=0.0)]
+)
+def test_the_slip_and_the_spin_of_a_start_are_the_runs(start):
+    setup = by_hand(rolling=start, seconds=0.01, stem=False, law="coulomb", mu_s=0.5)
+    motion = on(setup, "ordinary")
+    moved = slide(setup.top, start, Coulomb(setup.mu, setup.mu_s), np.array([0.0, 1e-3]))
+    assert motion.slip[0] == pytest.approx(np.hypot(*moved.slip[0]), rel=1e-9)
+    assert motion.curves[0, 5] == pytest.approx(start.omega3 / setup.scales.time / (2 * np.pi), rel=1e-6)
 
 
 # ---- one truth ----
@@ -152,25 +141,6 @@ def test_a_picture_and_what_is_kept_of_it_go_together_both_ways():
     playing.time = 3.0
     together(playing, second)
     assert not second.playing and not playing.playing and second.time == first.time == 3.0
-
-
-def test_what_rolls_and_the_three_planes_run_stand_and_go_as_fast_as_each_other():
-    planes, playing = planes_of(Explorer()), Playing()
-    inputs = {"plane": planes.plane} | planes.inputs
-    view = ThreePlanes(inputs, planes.ask, None, None, planes, playing)
-    view.show(planes.picture)
-    tops = list(view._tops.values())
-    assert {top.speed for top in tops} == {1 / 4}  # 5 s are shown in 20 s, unless somebody chose a speed
-    assert playing.speed == Playing.param.speed.default
-    tops[1].speed = 1 / 8  # chosen by a person
-    assert {top.speed for top in tops} == {playing.speed} == {1 / 8}
-    playing.param.update(speed=1 / 2, playing=False)
-    assert {(top.speed, top.playing) for top in tops} == {(1 / 2, False)}
-    planes.ask(seconds=2.0)
-    view.show(planes.picture)
-    assert {top.speed for top in tops} == {1 / 2}
-    tops[0].playing = True
-    assert playing.playing and all(top.playing for top in tops)
 
 
 # ---- the Pacer ----

@@ -19,7 +19,7 @@ def tab(monkeypatch):
     monkeypatch.setattr("app.tabs.lab.lab.RESTS", 0.0)
     lab, done = Lab(), []
     lab.rest = lambda: None  # the ends for all spins are not needed here
-    made = LabTab(lab, lambda: done.append("research"), lambda: done.append("rests"))
+    made = LabTab(lab, lambda: done.append("rests"), research=lambda: done.append("research"))
     made.lab, made.done = lab, done
     lab.show()
     return made

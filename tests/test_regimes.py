@@ -10,7 +10,7 @@ from text_files import APP, sources, text, wrong_in
 
 from app.model import arrival, ends, regimes
 from app.model.colours import COLOURS, FAINT, GREY, INK, ON_LIGHT
-from app.tabs.planes.plots import IN_RIBBON
+from app.tabs.lab.figures import IN_RIBBON
 from app.text import LANGUAGES, listed
 from tippe_core import Coulomb, State, Top, slide_many
 
@@ -69,7 +69,7 @@ def test_every_regime_has_its_words(language):
 
 
 def test_regimes_that_stand_beside_each_other_are_told_apart():
-    """In the ribbon of the three planes, and in that of one motion."""
+    """In the ribbon of a run, and in that of a rolling motion."""
     for beside in ((regimes.ROLLS, regimes.SLIPS, regimes.GLIDES, regimes.FLIES, regimes.WOULD_LIFT, regimes.ENDS),
                    (regimes.ROLLS, regimes.WOULD_SLIP, regimes.WOULD_LIFT)):  # fmt: skip
         assert len({regimes.COLOUR[code] for code in beside}) == len(beside)

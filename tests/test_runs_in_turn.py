@@ -8,7 +8,7 @@ from queue import Queue
 
 import numpy as np
 import pytest
-from house import planes_of
+from house import lab_of
 from run_pages import PATIENCE, Page, all_busy, one_page, told
 from serving import until
 
@@ -124,15 +124,14 @@ def test_the_lesson_begins_before_its_runs_are_there(page):
 
 @pytest.mark.slow
 def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
-    monkeypatch.setattr("app.model.planes.planes.PATIENCE", 0.0)
-    explorer = Explorer()
-    planes = planes_of(explorer, page.runs)
-    planes.ask(spin=21.0)
-    planes.ask(spin=22.0)  # before the session is told that the first one is not run
+    monkeypatch.setattr("app.model.lab.lab.PATIENCE", 0.0)
+    lab = lab_of(Explorer(), page.runs)
+    lab.ask(spin=21.0)
+    lab.ask(spin=22.0)  # before the session is told that the first one is not run
     busy.end()
-    while planes.busy:
+    while lab.busy:
         page.next()
-    assert planes.picture.settings.spin == 22.0
+    assert lab.scene.start.spin == 22.0
 
 
 def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):

@@ -68,10 +68,7 @@ def told(share):
 def test_while_it_is_open_it_is_of_the_start_that_its_link_opens(opened, tab):
     seen = opened(f"?v=2&tab={tab}&by=hand&spin=15")
     assert told(seen.share) == (15, 15, 15)
-    if tab == "lab":
-        seen.house.lab_of.ask(spin=12.0)
-    else:
-        seen.house.explorer.later(spin=12.0)
+    seen.house.lab_of.ask(spin=12.0)
     seen.rest()
     assert told(seen.share) == (12, 12, 12)
     assert seen.share._files._link == seen.share._head.link

@@ -182,7 +182,6 @@ CHANGES = {
     "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
     "LabView": PICTURE | {"asked": row(COUNT, SHORT, NUMBER | SHORT | FLAG)},
     "Look": {"dark": FLAG, "large": FLAG},
-    "Near": {"near": FLAG},
     "Painted": {"painted": COUNT},
     "Paper": {},
     "Phone": {"mark": text(32)},

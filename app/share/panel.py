@@ -33,6 +33,7 @@ ROLLING = {
 """{kind of file: a function that gives its bytes, of what is shown, its link, and how many times slower it is
 played}."""
 ROWS = {"pictures": ("png", "svg"), "data": ("csv", "npz"), "solid": ("glb",), "code": ("py",)}
+SLOW = 16  # times slower than the real top, unless a speed was chosen
 NAMES = {kind: kind.upper() for kind in (*RUN, "stl", "html")} | {"npz": "NumPy", "py": ".py"}
 ROW = """
 :host { display: flex; flex-flow: row wrap; gap: 8px; align-items: center; padding: 6px 0; min-height: 47px;
@@ -88,7 +89,7 @@ class Files:
         ]  # fmt: skip
 
     def _save(self, kind):
-        return Download(self._runs, lambda: (self._what, self._link, 1 / self._playing.speed),
+        return Download(self._runs, lambda: (self._what, self._link, 1 / (self._playing.speed or SLOW)),
                         lambda *what: made(kind, *what), label=NAMES[kind], filename=kind,
                         margin=0)  # fmt: skip
 

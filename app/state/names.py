@@ -27,7 +27,7 @@ PANELS = ("which", "surface", "time", "values", "ends", "portraits")
 LEVELS = ("explore", "research")
 SECTIONS = ("lesson", "derivation", "published", "teach", "history")
 """The rooms of the tab Learn."""
-SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)} | {f".{str(1 / n)[2:]}": float(n) for n in (2, 4, 8)}
+SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)} | {f".{str(1 / n)[2:]}": float(n) for n in (2, 4, 8)} | {"auto": 0.0}
 
 # The defaults belong to a version: if they or the meaning of a name change, this becomes 5.
 VERSION = 4

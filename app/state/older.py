@@ -21,21 +21,22 @@ MU = ".5"  # static friction where none was said
 MU_S = ".4"  # the default of Coulomb's law on the three planes in version 1
 PAPERS = {"by": "share", "spin": "20", "tilt": "10", "mu_k": ".3", "mu": ".5", "law": "smoothed"}
 """The start at the level "Research" up to version 3, where it differed from the arrival."""
+PAPERS_BODY = {"body": Body.text(TruncatedSphere.paper()), "a": ".07", "I1": ".399", "I3": ".408"}
 
 
 def fourth(texts):
     """The texts of a version 3 query in version 4."""
-    room = texts.get(TAB, LAB)
-    room = room if room in (*ROOMS, PLANES) else ROLLING
+    said = texts.get(TAB, LAB)
+    room = said if said in (*ROOMS, PLANES) else ROLLING
     level = texts.get(LEVEL, LEVELS[0] if room == LAB else LEVELS[1])
     found = {key: text for key, text in texts.items() if key not in (TAB, LEVEL, "seconds")}
     if level != LEVELS[0]:
-        body = {} if "body" in texts else {"body": Body.text(TruncatedSphere.paper())}
-        found = PAPERS | body | found
+        found = PAPERS | ({} if "body" in texts else PAPERS_BODY) | found
     if room == ROLLING:
-        found = {"slow": "16"} | found | {"table": "rough"}
-    figures = room in (ROLLING, PLANES)
-    return found | {TAB: LAB if figures else room, LEVEL: LEVELS[1] if figures else level}
+        found = {"slow": "16", "table": "rough"} | found
+    is_lab = room in (ROLLING, PLANES)
+    known = LAB if said in (ROLLING, PLANES) else said  # what is not known is said to be
+    return found | {TAB: known, LEVEL: LEVELS[1] if is_lab else level}
 
 
 def third(texts):

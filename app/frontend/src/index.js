@@ -19,7 +19,6 @@ import { renderLook } from "./widgets/look.js";
 import { renderConnection } from "./widgets/notices.js";
 import { renderFailure } from "./widgets/notices.js";
 import { renderMoments } from "./widgets/moments.js";
-import { renderNear } from "./widgets/near.js";
 import { renderPainted } from "./widgets/painted.js";
 import { renderPaper } from "./widgets/paper.js";
 import { renderPhone } from "./widgets/phone.js";
@@ -48,7 +47,6 @@ export default {
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Moments: { render: renderMoments },
-  Near: { render: renderNear },
   Painted: { render: renderPainted },
   Paper: { render: renderPaper },
   Phone: { render: renderPhone },

@@ -23,6 +23,7 @@ CHOICES = MappingProxyType({
     "table": (*TABLES, "three"), "toy": tuple(TOYS), "law": LAWS, "landing": ("plastic", "stop"), "stem": (True, False),
 })  # fmt: skip
 Limits: TypeAlias = MappingProxyType[str, tuple[float, float]]
+DIGITS = 3
 SHOWN = 30  # characters of an input that is not a number, as quoted in a sentence
 
 
@@ -51,6 +52,12 @@ def nearest(name: str, value: object) -> float | None:
         return None
     least, most = LIMITS[name]
     return _folded(number) if name == "tilt" else min(max(number, least), most)
+
+
+def below(most: float) -> float:
+    """The largest number of DIGITS digits that is smaller."""
+    unit = 10.0 ** (math.floor(math.log10(most)) - DIGITS + 1)
+    return float(f"{(math.ceil(most / unit) - 1) * unit:.{DIGITS}g}")
 
 
 def _number(value: object) -> float | None:

@@ -14,7 +14,7 @@ import param
 
 from app.model.arrival import TILT
 from app.model.keeps import keeps, while_it_turns
-from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
+from app.model.lab.allowed import LIMITS, POSSIBLE, below, fault, nearest
 from app.model.lab.ends import Ends, ends_once, known_ends, of_spins
 from app.model.run import SHIPS, TableMotion, TooLong, motion_on, whole_on, why_not
 from app.model.runs import LATER, Result, Run, Runs, Stopped
@@ -23,7 +23,7 @@ from app.model.start import NUMBERS, Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, of_all, story
 from app.text import say
 from app.together import set_together
-from tippe_core import TopError
+from tippe_core import TopError, strongest_friction
 from tippe_core.types import Array
 
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
@@ -104,7 +104,7 @@ def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
         try:
             motions[each] = seen(each, start)
         except TopError as error:
-            if error.code in ("body-below-table", "below-sliding"):
+            if error.code in ("body-below-table", "below-sliding", "too-strong"):
                 raise
             refused[each] = _sentence(error)
         except TooLong:
@@ -321,13 +321,23 @@ class Lab(param.Parameterized):
             self.nearest[name] = floor(10 * error.numbers["most"]) / 10  # its slider's digits
         elif error.code == "below-sliding":
             self.nearest[name] = inputs[1].mu
+        elif error.code == "too-strong":
+            self.nearest[name] = below(strongest_friction(inputs[1].top))
         if self.inputs != inputs:
             return  # another start has been requested meanwhile
         good = self._good[1]
         known = good.toy == self.start.toy and self.scene
-        is_tilt = name == "tilt" and self.start.at_rest
-        self.start.later(**{"tilt": good.tilt if known else TILT} if is_tilt else self._back)
+        back = self._back
+        if name == "tilt" and self.start.at_rest:
+            back = {"tilt": good.tilt if known else TILT}
+        elif name in self.nearest and self._differs_elsewhere(inputs[1]):
+            back = {name: self.nearest[name]}  # the rest, which may be of a link, stays
+        self.start.later(**back)
         self._tell()
+
+    def _differs_elsewhere(self, start: Setup) -> bool:
+        """Whether a start differs from the last good one in more than the numbers of its law."""
+        return replace(self._good[1], **{name: getattr(start, name) for name in OF_LAW[start.law]}) != start
 
     def _tell(self) -> None:
         """Copies the messages into the scene."""
