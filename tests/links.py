@@ -121,7 +121,7 @@ def opened(link):
             "motion": {name: float(getattr(scene.constants, name)) for name in ("K_J", "K_R", "E")},
             "turns": [float(theta) for theta in scene.turning],
             "wrong": sorted(scene.messages),
-            "said": keep.sentence.replace("of lab, ", "of roll, three-planes, ").replace("a class, as", "a vote, as"),  # old names
+            "said": keep.sentence.replace("of lab, ", "of roll, three-planes, ").replace("a class, as", "a vote, as"),
         }  # fmt: skip
         for name in ("motion", "turns") if planes and hand else ():
             del found[name]

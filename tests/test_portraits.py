@@ -48,21 +48,17 @@ def test_the_push_and_the_square_are_those_of_the_motion(scene):
 
 def test_a_choice_calls_what_it_was_given_and_nothing_unknown():
     told = []
-    does = choices.asks(toy=told.append, table=told.append, language=told.append, share=lambda: told.append("share"))
-    for name, value in (("toy", "Top S"), ("table", "rough"), ("language", "de"), ("share", None)):
+    does = choices.asks(toy=told.append, language=told.append, share=lambda: told.append("share"))
+    for name, value in (("toy", "Top S"), ("language", "de"), ("share", None)):
         does[name](value)
         if value:
             with pytest.raises(Unasked):
                 does[name]("a yo-yo")
-    assert told == ["Top S", "rough", "de", "share"]
+    assert told == ["Top S", "de", "share"]
 
 
-def test_tops_and_tables_are_told_by_their_names():
+def test_tops_are_told_by_their_names():
     chosen, known = choices.tops("Top S")
     assert chosen == "Top S" and "Top S" in dict(known) and "" not in dict(known)
     own, known = choices.tops("of somebody's own")
     assert own == "" == known[0][0] and "Top S" in dict(known)
-    assert choices.tables("lab", "ordinary") == ("ordinary", [])
-    chosen, known = choices.tables("roll", "ordinary")
-    assert chosen == "rough" and {name for name, *_ in known} >= {"rough", "ordinary"}
-    assert choices.tables("three-planes", "ice")[0] == "ice"

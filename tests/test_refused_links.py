@@ -1,6 +1,7 @@
 """A link whose start is not possible: in every view there is soon either a picture or a sentence, never a wait without
 an end."""
 
+import json
 from itertools import product
 
 import pytest
@@ -10,8 +11,9 @@ from app.model.lab.allowed import LIMITS
 from app.model.lab.lab import Lab
 from app.state.keep import explorer_of, read, values
 from app.state.names import ROWS, VERSION_NAME
+from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
-from tippe_core import strongest_friction
+from tippe_core import Top, strongest_friction
 
 USUAL = {VERSION_NAME: "4", "by": "hand", "law": "contact", "spin": "20", "tilt": "10"}
 TABLES = ("ordinary", "rough", "ice", "three")
@@ -88,12 +90,14 @@ def test_the_lab_has_a_scene(texts):
     assert set(scene.messages) <= {*LIMITS}  # controls that show them
 
 
-def test_a_start_that_explore_cannot_show_is_said_there():
-    """For example of a slider at the level Research."""
+def test_a_top_that_no_body_has_is_shown():
+    """An ordinary top, whose peg is a ball far below G."""
     explorer = Explorer(given="hand", a=-1.5)
     lab = Lab(start=explorer)
     lab.show()
-    assert "a = -1.5 is not possible" in lab.scene.messages["tilt"]
+    assert lab.scene.toy == Top(-1.5, 0.399, 0.408) and not lab.scene.messages and lab.scene.motions["ordinary"]
+    tab = json.loads(LabTab(lab, lambda: None).view.state)
+    assert not tab["dims"] and not tab["toy"]
 
 
 # ---- the link of somebody who types MuJoCo's friction ----

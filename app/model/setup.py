@@ -39,8 +39,8 @@ SECONDS, MOST_SECONDS = 6.0, 60.0
 MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.5, 16_000, 1.0
 LEAST_FRAMES = 600
 
-Toy: TypeAlias = str | Shape
-"""The name of one of TOYS, or a body of the visitor's own."""
+Toy: TypeAlias = str | Shape | Top
+"""The name of one of TOYS, or a body of the visitor's own; or a Top that no known body has."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -84,11 +84,13 @@ class Setup:
 
     @property
     def toy(self) -> Toy:
-        """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3. Raises TopError if
-        no sphere has these."""
+        """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3, if there is one."""
         if self.shape is not None:
             return toy_of(self.shape, self.top)
-        return BareSphere(R=self.scales.R, M=self.scales.M, a=self.top.a, I1=self.top.I1, I3=self.top.I3)
+        try:
+            return BareSphere(R=self.scales.R, M=self.scales.M, a=self.top.a, I1=self.top.I1, I3=self.top.I3)
+        except TopError:
+            return self.top
 
     @cached_property
     def profile(self) -> Array:
@@ -179,13 +181,15 @@ def start_of(
     toy: Toy, spin: float, tilt: float, mu: float, rolling: State | None = None, patch: float = PATCH
 ) -> Setup:
     """The Setup of a toy on a real contact."""
-    shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
+    shape = shape_of(toy)
+    top = TOYS[toy].top if isinstance(toy, str) else shape.top
     return Setup(top=top, scales=shape.scales, shape=shape, spin=spin, tilt=tilt, rolling=rolling, mu=mu, mu_s=mu,
                  patch=patch)  # fmt: skip
 
 
 def shape_of(toy: Toy) -> Shape:
-    """The body of a toy."""
+    """The body of a toy that has one."""
+    assert not isinstance(toy, Top)
     return TOYS[toy].shape if isinstance(toy, str) else toy
 
 

@@ -90,16 +90,11 @@ class Start(param.Parameterized):
 
     @property
     def toy(self) -> Toy:
-        """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3."""
+        """The body's name in TOYS; otherwise the body itself, or a sphere or a Top with these a, I1 and I3."""
         try:
-            return self.body
-        except TopError:  # reported where it matters
+            return self.setup.toy
+        except TopError:  # no top has these; reported where it matters
             return toy_of(self.shape, self.shape.top)
-
-    @property
-    def body(self) -> Toy:
-        """The same; raises TopError if no top, or no sphere, has these."""
-        return self.setup.toy
 
     @property
     def static(self) -> float:

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from app.model.setup import LAWS, TABLES, TOYS
 from app.text import say
-from tippe_core import Shape
+from tippe_core import Shape, Top
 
 LIMITS = MappingProxyType({
     "spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "slip": (-10.0, 10.0), "mu": (0.01, 1.5), "mu_s": (0.01, 1.5),
@@ -29,7 +29,7 @@ SHOWN = 30  # characters of an input that is not a number, as quoted in a senten
 
 def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
     """Why an input cannot have this value, in a sentence; "" if it can."""
-    if name == "toy" and isinstance(value, Shape):
+    if name == "toy" and isinstance(value, Shape | Top):
         return ""
     if name in CHOICES:
         return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])

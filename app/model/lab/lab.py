@@ -23,7 +23,7 @@ from app.model.start import NUMBERS, Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, of_all, story
 from app.text import say
 from app.together import set_together
-from tippe_core import TopError, strongest_friction
+from tippe_core import Outcome, TopError, outcome, strongest_friction
 from tippe_core.types import Array
 
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
@@ -76,6 +76,11 @@ class LabScene:
     def toy(self) -> Toy:
         """The body, by its name if it has one."""
         return self.start.toy
+
+    @property
+    def outcome(self) -> Outcome:
+        """What friction would make of the ball alone."""
+        return outcome(self.start.top, self.start.state)
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -260,7 +265,7 @@ class Lab(param.Parameterized):
         self.refused |= {name: values[name] for name in faults}
         self.nearest |= {name: near for name in faults if (near := nearest(name, values[name])) is not None}
         try:
-            self.start.body  # noqa: B018
+            self.start.setup  # noqa: B018
         except TopError as error:
             faults["tilt"] = _sentence(error)  # which any start by hand has
         if faults:  # they came from a link, or from another room

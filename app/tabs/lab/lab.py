@@ -26,7 +26,7 @@ from app.text import listed, say, speaking, spoken
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
-from tippe_core import TopError
+from tippe_core import Top, TopError
 
 SLIDERS = {
     "spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "slip": (0, 1.5, 0.05, 2), "mu": (0.01, 1, 0.01, 2),
@@ -40,7 +40,7 @@ RESTS = 0.4  # s after its last request after which a hand is at rest
 
 def dimensions(toy):
     """{input: Dimension} of the body's dimensions that can be set here."""
-    family = FAMILIES[type(shape_of(toy))][1]
+    family = () if isinstance(toy, Top) else FAMILIES[type(shape_of(toy))][1]
     return {f"dim:{each.name}": each for each in family if each.unit == "mm" or each.name == "a"}
 
 
@@ -269,7 +269,7 @@ class LabTab:
             "said": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
             "caught": ordinary is not None and is_caught(ordinary),
             "touches": start.shape is not None and start.shape.touch_angle is not None,
-            "R": 1e3 * shape_of(scene.toy).R,
+            "R": 1e3 * start.scales.R,
             "whole": scene.whole,
         }
 

@@ -10,7 +10,7 @@ from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.cards import swatch
 from app.widgets.typeset import power
-from tippe_core import Coulomb, outcome
+from tippe_core import Coulomb
 
 # The colour of each table, the same in all pictures.
 LOOKS = {"ordinary": COLOURS["friction"], "rough": COLOURS["normal"], "ice": COLOURS["jellett"]}
@@ -91,7 +91,7 @@ def ball_words(scene):
         return "" if sliding and sliding.ended else say("planes.verdict.forever")
     patch = settings.law == "contact"  # its torque takes J, on which the outcome depends
     of = "patch" if patch else "ball" if settings.edge else "whole"
-    goes = outcome_words(outcome(settings.top, settings.state), settings.scales)
+    goes = outcome_words(scene.outcome, settings.scales)
     says = say(f"planes.verdict.{of}", sentence=html.escape(goes), part=part(settings))
     if patch and sliding is not None:
         return says + say("planes.verdict.pivots", drift=100 * sliding.drift["J"])

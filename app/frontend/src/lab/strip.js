@@ -223,7 +223,8 @@ export class Strip {
     this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, 2], tilt: [curves.at(t, TILT) || 0, 0], headline: headline ?? "" }));
     const speed = String(time.chosen);
     if (this.speed.value !== speed) this.speed.value = speed;
-    const own = say(texts, texts.automatic, { speed: (this.width < NARROW ? texts.short_speeds : texts.speeds)[SPEEDS.indexOf(time.speed)] });
+    const isNarrow = this.width < NARROW, fits = (isNarrow ? texts.short_speeds : texts.speeds)[SPEEDS.indexOf(time.speed)];
+    const own = isNarrow ? fits : say(texts, texts.automatic, { speed: fits });
     if (this.speed.options[0].text !== own) this.speed.options[0].text = own;
   }
 
