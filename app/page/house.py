@@ -40,7 +40,7 @@ TABS = {"learn": ("learn",), "lab": (room.FIRST,), "build": ("build-a-top",), "m
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
 BESIDE = """
 :host { min-height: max-content } .scroll-button { display: none !important }
-@media (min-width: 1000px) { :host { display: grid; align-items: start; grid-template-columns: var(--columns) } }
+@media (min-width: 1200px) { :host { display: grid; align-items: start; grid-template-columns: var(--columns) } }
 """
 COLUMNS = {True: "minmax(0, 57fr) minmax(0, 43fr)", False: "minmax(0, 1fr)"}
 DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}

@@ -19,11 +19,12 @@ from app.tabs.lab.figures import IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, We
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import LOOKS, ball_words, run_words, scatter_words, table_words
 from app.text import say, written
-from app.widgets.cards import PLAIN, swatch, words
+from app.widgets.cards import PLAIN, note, swatch, words
 from app.widgets.moments import Moments
 
+ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
 AUTO, WHOLE = "auto", {"height": "max-content", "max-height": "none"}
-AROUND = ":host { padding: 12px 24px 12px 0 } @media (max-width: 999px) { :host { padding: 12px 16px } }"
+AROUND = ":host { padding: 12px 24px 12px 0 } @media (max-width: 1199px) { :host { padding: 12px 16px } }"
 TABLE = (
     f":host {{ --kept: {COLOURS['normal']} }}"
     + """
@@ -56,7 +57,8 @@ class Research(param.Parameterized):
             name: pn.Column(sizing_mode="stretch_width", margin=0, visible=False, styles=WHOLE) for name in PANELS
         }
         self.rolling = Rolling(pacer, runs, lambda: lab.ask(table="ordinary"))
-        self.view = pn.Column(self._switch, *self._places.values(), controls, sizing_mode="stretch_width", margin=0,
+        self._note = words(note(say("research.rolling")), visible=False, margin=(4, 0))
+        self.view = pn.Column(self._switch, self._note, *self._places.values(), controls, sizing_mode="stretch_width", margin=0,
                               stylesheets=[AROUND])  # fmt: skip
         self._makers = {
             "which": self.rolling.plane, "surface": self.rolling.surface, "portraits": self.rolling.portraits,
@@ -96,6 +98,7 @@ class Research(param.Parameterized):
         name = self.shown
         with pn.io.hold():
             self._switch.value = name
+            self._note.visible = name in ROLLING and self._lab.start.table != "rough"
             if name not in self._made:
                 content, draws = self._makers[name]()
                 self._made[name] = draws

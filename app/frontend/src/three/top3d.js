@@ -85,7 +85,8 @@ class Top {
     this.newFrames();
     this.place.begin();
     const forget = this.listen();
-    if (!this.model.clock) window.__tippe.top3d = this.report;
+    const isMain = !this.model.clock || this.handle; // that of the page's start
+    if (isMain) window.__tippe.top3d = this.report;
     return () => {
       forget();
       this.place.leave();
@@ -181,7 +182,7 @@ function reportOf(top, label) {
 export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
-  if (!model.clock) picture.dataset.picture = "top";
+  if (!model.clock || model.tiltable) picture.dataset.picture = "top";
   const stage = tryStage(picture, { label, texts, fov: 30 });
   if (!stage) return renderFlat({ model, root, picture, view });
   const top = new Top(model, stage, { root, picture, label }), dispose = top.begin();
