@@ -6,6 +6,7 @@ the page.
 
 import ast
 import importlib
+import json
 from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -298,12 +299,12 @@ def test_what_a_view_asks_is_all_that_it_does(alone):
     """Dragging in Fig. 6, and dragging the axis of the top: the scene stays until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
     view = Roll(pacer, Playing(), Controls(pacer.scene, nothing, pacer.soon).card())
-    view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.0]}
+    view._plane.hand = ["line", 0.5, 6.0]
     [top] = view.main.select(Top3D)
     top.tilted = [0.6, 0.0, 1]
     line, tilt = pacer.asked
     assert line == {"K_J": 6.0, "given": "share"} and tilt["theta"] == 0.6 and tilt["given"] == "state"
-    assert view._scene is pacer.scene and view._plane.selected.data["K_J"][0] == 7.0
+    assert view._scene is pacer.scene and json.loads(view._plane.state)["K_J"] == 7.0
 
 
 # ---- no view computes ----

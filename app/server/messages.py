@@ -185,6 +185,7 @@ CHANGES = {
     "Near": {"near": FLAG},
     "Painted": {"painted": COUNT},
     "Paper": {},
+    "PlaneView": {"hand": row(one_of("tieline", "line", "end", "point"), ANGLE, SIZE), "pressed": row(COUNT, SHORT)},
     "Phone": {"mark": text(32)},
     "Said": {},
     "ShareHead": {"closed": COUNT},

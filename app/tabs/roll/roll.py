@@ -15,7 +15,7 @@ from app.widgets.cards import PLAIN, TALL, WIDE, card, first, framed, later, sta
 from app.widgets.controls import named
 from app.widgets.near import WhenNear
 from app.widgets.plane_card import PlaneCard
-from app.widgets.plots import Motion, TimeFigures
+from app.widgets.plots import TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.said import said
 from app.widgets.surface3d import Surface3D, show_surface
@@ -118,15 +118,15 @@ class Roll:
     def __init__(self, pacer, playing, controls, slip=lambda: None, runs=None):
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
-        self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
-        self._card = PlaneCard(self._motion, pacer.ask, slip, runs)
+        self._top = Top3D(sizing_mode="stretch_both", tiltable=True)
+        self._card = PlaneCard(pacer.ask, slip, runs)
         self._plane = self._card.plane
         self._says = said()
         # The functions for each round of pictures; more are added as cards are created.
-        self._planes = [self._motion.show, self._plane.show_plane, partial(show_top, self._top)]
+        self._planes = [self._plane.show_plane, partial(show_top, self._top)]
         self._times, self._portraits = [], []
         together(playing, self._top)
-        self._plane.hand.on_change("data", self._on_plane)
+        self._plane.param.watch(asked.heard(self._on_plane), "hand")
         at_once(self._top, "tilted", "time")
         self._top.param.watch(asked.heard(self._on_axis), "tilted")
         soon = pacer.soon
@@ -181,10 +181,8 @@ class Roll:
         """A request from the (K_J, theta) plane; limit: that of the tielines in the picture."""
         self._pacer.ask(**pulled(self._scene, grip, theta, K_J, limit))
 
-    def _on_plane(self, attr, old, new):
-        match new:  # a client other than the page may send anything
-            case {"grip": [str() as grip], "theta": [int() | float() as theta], "K_J": [int() | float() as K_J]}:
-                self._grabbed(grip, theta, K_J, "slip")
+    def _on_plane(self, event):
+        self._grabbed(*asked.parts(event.new, asked.text, asked.number, asked.number), "slip")
 
     def _on_surface(self, event):
         if event.name == "hand":
