@@ -61,7 +61,7 @@ export class Picture {
       ...(half < box.right ? [drawn("line", { class: "half", x1: half, x2: half, y1: box.top, y2: box.bottom })] : []),
       drawn("g", { "clip-path": "url(#curves)", class: "curves" }, ...region(plane, limits)),
       drawn("line", { class: "axis", x1: box.left, x2: box.right, y1: box.bottom, y2: box.bottom }),
-      ...(state.pole === null ? [] : [drawn("circle", { class: "pole", cx: x(0), cy: y(state.pole), r: 4 }), drawn("text", { class: "word halo", x: x(0) + 8, y: y(state.pole) - 4 }, "P")]),
+      drawn("circle", { class: "pole", cx: x(0), cy: y(state.pole), r: 4 }), drawn("text", { class: "word halo", x: x(0) + 8, y: y(state.pole) - 4 }, "P"),
     );
   }
 
@@ -94,7 +94,7 @@ export class Picture {
     const { path, state, limits, size, texts } = scene, { plane, routh } = this.plots, { x, y, box } = plane;
     const around = (left, right, level, by) => ({ left: x(left) - by, right: x(right) + by, top: y(level) - by, bottom: y(level) + by });
     const corner = this.inset.place(plane, scene);
-    const fixed = [around(state.inner, state.outer, state.K_J, 10), ...(corner ? [corner] : []), ...(state.pole === null ? [] : [around(0, 0, state.pole, 1.5 * size)])];
+    const fixed = [around(state.inner, state.outer, state.K_J, 10), ...(corner ? [corner] : []), around(0, 0, state.pole, 1.5 * size)];
     const goes = path ? pathNames(this.plots, path, state, texts, size) : { first: [], last: [], routh: [] };
     const soft = path ? pathBoxes(plane, path.theta, path.K_J) : [], wall = path ? touchBoxes(plane, path, state) : [];
     // that of the tieline is the first, so that it finds room; it is written on its own, since it moves
