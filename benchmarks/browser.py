@@ -67,17 +67,20 @@ WATCH = """
   const hand = ours ? dial.properties.asked : slider.properties.value
   const value = () => ours ? dial.asked[1] : slider.value
   const view = (name) => Bokeh.index.find_one(models.find((m) => m.name == name && m.renderers))
-  const plane = view("plane")
   hand.change.connect(() => bench.inputs.push([window.event?.timeStamp ?? performance.now(), value()]))
   const painted = (part, value) => {
     const channel = new MessageChannel()
     channel.port2.onmessage = () => bench[part].push([performance.now(), value])
     channel.port1.postMessage(0)
   }
-  const under = plane.model.renderers.map((r) => r.data_source).find((s) => ours ? s.data.inner : s.data.value)
-  const shown = () => ours ? under.data.K_J[0] : under.data.value[0]
-  plane.repainted.connect(() => painted("figure", shown()))
-  if (!ours) return plane.repainted.connect(() => painted("page", shown()))
+  if (!ours) {
+    const plane = view("plane"), {data_source} = plane.model.renderers[0]
+    plane.repainted.connect(() => ["figure", "page"].forEach((part) => painted(part, data_source.data.value[0])))
+    return
+  }
+  const {plane} = window.__tippe
+  const moved = new MutationObserver(() => painted("figure", Number(plane.selected.K_J.toFixed(9))))
+  moved.observe(plane.bar, {attributes: true})
   // The page is as old as its oldest part: the plots over time, the top in 3-D, and the motion in Fig. 5.
   const motion = view("constants").model.renderers[0].data_source
   const {top3d, surface3d} = window.__tippe

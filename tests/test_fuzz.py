@@ -207,6 +207,7 @@ GOOD = {"asked": [7, 6.5, False], "active": 1, "value_input": "7", "hand": [], "
 GOOD_OF = {
     ("Head", "asked"): [7, "table", "rough"],
     ("LabView", "asked"): [7, "tilt", 5.0],
+    ("PlaneView", "hand"): ["line", 0.5, 6.5],
     ("LessonView", "asked"): [7, "section", "theorists"],
 }
 

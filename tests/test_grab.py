@@ -15,13 +15,7 @@ FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # indices among the controls
 STATE_FIELDS = {"theta": 0, "theta_dot": 1, "omega2": 2, "omega3": 3}
 
 # The motion on display, as Fig. 6 shows it.
-SELECTED = """
-() => {
-  const plane = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "plane" && m.renderers)
-  const {data} = plane.renderers.map((r) => r.data_source).find((s) => s.data.worst)
-  return Object.fromEntries(Object.entries(data).map(([name, values]) => [name, values[0]]))
-}
-"""
+SELECTED = "() => window.__tippe?.plane?.selected"
 
 
 def selected(visit):
@@ -95,6 +89,7 @@ def one(chromium, server):
     """The page that all tests here share; nothing in it moves by itself."""
     context = chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
     visit = Visit(context.new_page(), server)
+    visit.page.wait_for_function(SELECTED)
     visit.first_bead = selected(visit)["theta"]
     visit.first = {name: selected(visit)[name] for name in ("K_J", "inner", "outer")}
     yield visit
@@ -137,7 +132,6 @@ def test_an_end_of_the_tieline_is_the_energy(visit):
 
 
 def test_a_hand_that_rests_before_it_pulls_pulls_all_the_same(visit):
-    """Bokeh takes a pointer that rests for 0.3 s for a press, and does not drag."""
     stop_at_the_start(visit)
     outer = selected(visit)["outer"]
     visit.drag(visit.pixel("plane", outer, 7.0), visit.pixel("plane", 0.86, 7.0), rest=700)
@@ -201,8 +195,8 @@ def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_say
 
 def test_the_bead_moves_the_clock_and_nothing_else(visit):
     stop_at_the_start(visit)
-    visit.page.wait_for_function("""[...Bokeh.documents[0]._all_models.values()].some(
-        (m) => m.type == "Label" && m.visible && m.text.startsWith("rolls again"))""")  # it appears last
+    # it appears last
+    visit.page.wait_for_function("__tippe.plane.names.some((name) => name.startsWith('rolls again'))")
     place, aim = selected(visit), 0.7
     visit.drag(visit.pixel("plane", place["theta"], 7.0), visit.pixel("plane", aim, 7.3))
     wait(visit.page, lambda: rests(visit))  # an earlier test may have requested something
@@ -319,7 +313,7 @@ def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium
             touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
     top = "() => document.body.getClientRects().length && (" + PIXEL + ")(['plane', 0.62, 7])[1]"
-    page.locator("[data-figure=plane]").first.evaluate("e => e.scrollIntoView({block: 'end'})")
+    page.evaluate_handle("__tippe.plane.bar").evaluate(IN_SIGHT)  # clear of the stage above and the rooms below
     place = page.evaluate(top)
     x, y = visit.pixel("plane", 0.62, 7.0)
     drag(x, y, 60)

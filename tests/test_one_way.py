@@ -6,6 +6,7 @@ the page.
 
 import ast
 import importlib
+import json
 from functools import cache, partial
 from pathlib import Path
 
@@ -296,11 +297,12 @@ def test_what_a_view_asks_is_all_that_it_does(alone):
     """Dragging in Fig. 6: the scene stays until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
     view = Rolling(pacer, None, None)
-    _, draws = view.plane()
+    [plane], draws = view.plane()
     draws["hand"](pacer.scene)
-    view._on_plane("data", None, {"grip": ["line"], "theta": [0.5], "K_J": [6.0]})
+    plane.hand = ["line", 0.5, 6.0]
     [line] = pacer.asked
-    assert line == {"K_J": 6.0, "given": "share"} and view._scene is pacer.scene
+    assert line == {"K_J": 6.0, "given": "share"}
+    assert view._scene is pacer.scene and json.loads(plane.state)["K_J"] == 7.0
 
 
 # ---- no view computes ----

@@ -1,20 +1,21 @@
 """Fig. 6 and what follows when a motion leaves its tieline, without a browser."""
 
+import json
+
 import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
 from app.model.start import arrives
 from app.widgets.plane_card import PlaneCard
-from app.widgets.plots import Motion
-from tippe_core import Top
+from tippe_core import Constants, Top, roll
 
 
 @pytest.fixture
 def card():
     """A PlaneCard that sends requests to an Explorer, and shows its scenes when nothing is dragged."""
     explorer, slid = Explorer(), []
-    card = PlaneCard(Motion(), lambda **inputs: explorer.param.update(**inputs), lambda: slid.append("slips"))
+    card = PlaneCard(lambda **inputs: explorer.param.update(**inputs), lambda: slid.append("slips"))
     card.explorer, card.slid = explorer, slid
 
     def show(scene):
@@ -27,54 +28,99 @@ def card():
     return card
 
 
+def state(card):
+    return json.loads(card.plane.state)
+
+
+def rows(values, width, kind="<f4"):
+    """The columns of the bytes of a table."""
+    return np.frombuffer(values, kind).reshape(-1, width).T
+
+
 def test_all_tilts_are_shown_and_the_papers_own_by_one_switch(card):
-    assert card.plane.figure.x_range.end == np.pi and card.slips.below.x_range is card.plane.figure.x_range
-    assert card.plane.figure.min_border_left == card.slips.below.min_border_left
+    assert state(card)["theta_range"] == [0, np.pi]
     card.explorer.upper = "paper"
-    assert card.plane.figure.x_range.end == pytest.approx(1.03 * 1.6943, abs=1e-3)
+    assert state(card)["theta_range"] == [0, pytest.approx(1.03 * 1.6943, abs=1e-3)]
+
+
+def test_the_limits_arrive_as_they_are(card):
+    """To the last digit, because they decide whether a place rolls."""
+    plane = card.explorer.scene.plane
+    K_J, lift_in, slip_in, slip_out, lift_out, verge, lift_verge, steady, slip_E, *_ = np.frombuffer(
+        card.plane.limits, "<f8"
+    ).reshape(11, -1)
+    pairs = ((K_J, plane.K_J), (lift_in, plane.lift.theta_inner), (slip_in, plane.slip.theta_inner),
+             (slip_out, plane.slip.theta_outer), (lift_out, plane.lift.theta_outer), (verge, plane.slip.theta_verge),
+             (lift_verge, plane.lift.theta_verge), (steady, plane.lift.theta_steady),
+             (slip_E, plane.slip.E))  # fmt: skip
+    assert all(np.array_equal(ours, theirs, equal_nan=True) for ours, theirs in pairs)
+
+
+@pytest.mark.parametrize("inputs", [{}, {"energy": 1e-9}, {"K_J": 0.1, "K_R": 0.1}, {"K_R": 300.0, "K_J": 100.0}])
+def test_the_bead_has_one_nutation_of_the_motion(card, inputs):
+    card.explorer.param.update(**inputs)
+    scene = card.explorer.scene
+    t, theta = rows(card.plane.motion, 2)
+    period = state(card)["period"]
+    assert len(t) <= 129 and t[0] == 0 and np.ptp(np.diff(t)) < 1e-5 * t[-1]
+    assert t[-1] > 0.99 * period or t[-1] > 0.99 * scene.trajectory.t[-1]
+    c = scene.constants
+    expected = roll(Top.paper(), Constants(c.K_J, c.K_R, c.E), t.astype(float)).theta
+    assert theta == pytest.approx(expected, abs=1e-5)
+
+
+def test_a_move_of_a_hand_is_a_small_message(card):
+    """And only that: what is the same for all motions is sent once."""
+    told = {}
+    card.plane.param.watch(lambda *events: told.update({e.name: e.new for e in events}), ["state", "motion", "limits",
+                                                                                      "field", "path"])  # fmt: skip
+    card.show_selected(Explorer(K_J=6.5).scene)
+    assert {*told} == {"state", "motion", "path"} and sum(map(len, told.values())) < 1500
 
 
 def test_the_path_leaves_the_tieline_by_its_end_and_is_that_motions_alone(card):
-    own, end = card.slips.own.data, card.slips.end.data
-    assert own["theta"][0] == card.explorer.scene.turning[1] and own["K_J"][0] == pytest.approx(7)
-    assert end["theta"][0] > np.pi / 2 and end["K_R"][0] < 0 and len(card.slips.beyond.data["theta"])
-    assert card.slips.touch.visible and np.degrees(card.slips.touch.location) == pytest.approx(119, abs=0.5)
+    theta, low, high, K_J, K_R = rows(card.plane.path, 5)
+    assert theta[0] == np.float32(card.explorer.scene.turning[1]) and K_J[0] == pytest.approx(7)
+    assert theta[-1] > np.pi / 2 and K_R[-1] < 0 and np.all((low <= theta + 1e-6) & (theta <= high + 1e-6))
+    said = state(card)
+    assert 0 < said["touches"] < len(theta) and np.degrees(said["touch"]) == pytest.approx(119, abs=0.5)
     before = card.explorer.scene
     card.show_selected(Explorer(K_J=6.0).scene)
-    assert not len(card.slips.own.data["theta"]) and not card.slips.touch.visible
+    assert not card.plane.path and "touches" not in state(card)
     card.show_path(before)
-    assert len(card.slips.own.data["theta"])
-
-
-def test_the_words_of_slipping_stand_in_the_figure_wherever_the_path_ends(card):
-    """Left of its end, or right of that, or from the edge on."""
-    sides = set()
-    for spin in (20.0, 60.0, 150.0):
-        card.explorer.param.update(given="hand", spin=spin, tilt=5.7)
-        for word in (card.slips.words["keeps"], card.slips.words["goes"]):
-            at = word.x / card.plane.figure.x_range.end
-            wide = 5.5 / 300 * max(map(len, word.text.split("\n")))  # px of a letter, and of the figure on a phone
-            assert word.visible
-            assert (at >= wide) if word.text_align == "right" else (at == 0 or at + wide < 1)
-            sides.add(word.text_align)
-    assert sides == {"left", "right"}
+    assert card.plane.path
 
 
 def test_where_it_would_slip_there_is_a_road(card):
-    assert not card.slip.visible
+    assert state(card)["roads"] == []
     card.explorer.energy = 1.5
-    assert card.slip.visible
-    card.slip.clicks += 1
+    assert state(card)["roads"] == ["slip"]
+    card.plane.pressed = [1, "slip"]
     assert card.slid == ["slips"]
 
 
+@pytest.mark.parametrize("sent", [[1, "elsewhere"], [1], ["slip", 1], [1, ["slip"]]])
+def test_what_no_button_sends_is_passed_over(card, sent):
+    before = card.explorer.scene
+    card.plane.pressed = sent
+    assert card.slid == [] and card.explorer.scene is before
+
+
 def test_a_toy_that_was_gripped_is_shown_from_near_and_one_press_shows_the_papers_top(card):
-    assert not card.near.view.visible and not card.paper.visible
+    assert not state(card)["near"] and "paper" not in state(card)["roads"]
     card.explorer.param.update(**arrives())
-    inner, outer = np.degrees(card.explorer.scene.turning)
-    assert (inner, outer) == pytest.approx((1.2, 5.7), abs=0.05)
-    assert card.near.view.visible and card.paper.visible
-    assert card.near.figure.x_range.start < np.radians(inner) < np.radians(outer) < card.near.figure.x_range.end
-    card.paper.clicks += 1
+    said = state(card)
+    assert np.degrees([said["inner"], said["outer"]]) == pytest.approx((1.2, 5.7), abs=0.05)
+    assert said["near"] and "paper" in said["roads"]
+    card.plane.pressed = [1, "paper"]
     assert card.explorer.scene.top == Top.paper() and card.explorer.scene.constants.K_J == 7
-    assert not card.near.view.visible and not card.paper.visible
+    assert not state(card)["near"] and "paper" not in state(card)["roads"]
+
+
+def test_a_picture_of_before_is_named_while_a_value_is_refused(card):
+    assert state(card)["old"] is None
+    card.explorer.K_J = 1e99
+    assert card.explorer.scene.messages and state(card)["old"] == ["7", "10", "27.9804"]
+    assert state(card)["K_J"] == 7 and card.plane.path
+    card.explorer.K_J = 6.5
+    assert state(card)["old"] is None

@@ -30,8 +30,8 @@ from app.widgets.controls import Control, Controls
 from app.widgets.guide import Guide
 from app.widgets.pacing import Pacer
 from app.widgets.plane_card import PlaneCard
-from app.widgets.plane_figure import PlaneFigure
-from app.widgets.plots import Motion, TimeFigures
+from app.widgets.plane_view import PlaneView
+from app.widgets.plots import TimeFigures
 
 DOCS = Path(__file__).parent.parent / "docs"
 APP = DOCS.parent / "app"
@@ -42,8 +42,8 @@ SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room
 
 STATIONS = (
     (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
-    (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
-    (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
+    (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneView, "show_selected"),
+    (PlaneView, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
     (Planes, "ask"), (Planes, "follow"), (Planes, "_run_anew"), (Planes, "_publish"), (ThreePlanes, "show"),
     (TimeFigures, "show"), (PlaneCard, "show_path"),
 )  # fmt: skip
@@ -123,13 +123,13 @@ def followers(pacer):
 def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
     made, _, _ = walk("?v=1&tab=roll")
     stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
-    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls that of PlaneFigure, the other visible parts
+    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls that of PlaneView, the other visible parts
     assert {*followers(made[House].pacer)} - stations == turned
 
 
 def test_the_walk_of_a_tieline_that_is_pulled(walk):
     made, passed, rest = walk("?v=1&tab=roll")
-    made[Roll]._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.5]}
+    made[Roll]._plane.hand = ["line", 0.5, 6.5]
     rest()
     assert made[Roll]._scene.constants.K_J == 6.5
     assert passed == told("A tieline that is pulled") and len({*passed}) == len(passed)

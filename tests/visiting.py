@@ -16,9 +16,11 @@ FLAGS = [
     "--disable-sync",
 ]
 
-# A column of a data source in the browser, given the name of its figure, the index of the renderer and the column.
+# A column of a data source in the browser, given the name of its figure, the index of the renderer and the column; of
+# Fig. 6, which is our own, a column of its limits.
 COLUMN = """
 ([figure, renderer, column]) => {
+  if (figure == "plane") return Array.from(__tippe.plane.limits[column])
   const models = [...Bokeh.documents[0]._all_models.values()]
   const found = models.find((m) => m.name == figure && m.renderers)
   return Array.from(found.renderers[renderer].data_source.data[column])
@@ -29,6 +31,7 @@ COLUMN = """
 # The position on the page of a point of a figure.
 PIXEL = """
 ([figure, x, y]) => {
+  if (figure == "plane") return __tippe.plane.pixel(x, y)
   const model = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == figure && m.renderers)
   const {canvas_view: {el}, frame} = Bokeh.index.find_one(model), box = el.getBoundingClientRect()
   return [box.x + frame.x_scale.compute(x), box.y + frame.y_scale.compute(y)]

@@ -243,7 +243,8 @@ class House:
     def runs_shown(self, looked_at):
         """The runs on the tables that this room shows, as saved_runs.Shown."""
         scene = self.lab_of.scene if looked_at == room.FIRST else None
-        motions = scene.motions if scene else {}
+        is_rolling = not self._explores() and self.explorer.table == "rough"  # then the paper's motion is saved
+        motions = scene.motions if scene and not is_rolling else {}
         return [Shown(table, motion.trajectory, motion.start) for table, motion in motions.items() if motion]
 
     @property

@@ -184,6 +184,7 @@ CHANGES = {
     "Look": {"dark": FLAG, "large": FLAG},
     "Painted": {"painted": COUNT},
     "Paper": {},
+    "PlaneView": {"hand": row(one_of("tieline", "line", "end", "point"), ANGLE, SIZE), "pressed": row(COUNT, SHORT)},
     "Phone": {"mark": text(32)},
     "Said": {},
     "ShareHead": {"closed": COUNT},

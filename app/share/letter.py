@@ -18,8 +18,8 @@ from app.model.colours import COLOURS, ON_LIGHT
 from app.share.export import parameters
 from app.text import say, spoken
 from app.widgets.controls import SYMBOLS
-from app.widgets.plane_figure import PlaneFigure
-from app.widgets.plots import Motion, TimeFigures
+from app.widgets.plane_view import PlaneView
+from app.widgets.plots import TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Track
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top
@@ -45,7 +45,7 @@ LABELS = {
     "theta": "<i>θ</i><br>rad",
     "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
     "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
-    "constants": f'<span style="color:{ON_LIGHT["jellett"]}"><i>K</i><sub>J</sub></span><br>'
+    "constants": f'<span style="color:{COLOURS["jellett"]}"><i>K</i><sub>J</sub></span><br>'
     f'<span style="color:{ON_LIGHT["omega"]}"><i>K</i><sub>R</sub></span><br>'
     f'<span style="color:{ON_LIGHT["energy"]}"><i>E</i></span>',
 }
@@ -56,20 +56,18 @@ def letter(scene, link="", look=None):
 
     It is in the language of text.spoken(); in a thread of its own, call it within text.speaking().
     """
-    motion = Motion()
-    plane, times = PlaneFigure(motion), TimeFigures()
-    motion.show(scene)
+    plane, times = PlaneView(), TimeFigures()
     plane.show_selected(scene)
     plane.show_plane(scene)
     times.show(scene)
-    top, surface = Top3D(**(look or {})), Surface3D()
+    top, surface = Top3D(clock="lab", **(look or {})), Surface3D()
     show_top(top, scene)
     show_surface(surface, scene)
     portraits = [kind() for kind in (Phase, Curve, Potential, Track, Force)]
     for portrait in portraits:
         portrait.show(scene)
-    figures = (plane.figure, *times.figures.values(), *(portrait.figure for portrait in portraits))
-    script, (plane_div, *divs) = components(figures, wrap_script=True)
+    figures = (*times.figures.values(), *(portrait.figure for portrait in portraits))
+    script, divs = components(figures, wrap_script=True)
     time_divs, portrait_divs = divs[: len(times.figures)], divs[len(times.figures) :]
     rows = "".join(
         f'<div class="row"><div>{LABELS[name]}</div><div class="figure">{div}</div></div>'
@@ -84,7 +82,7 @@ def letter(scene, link="", look=None):
     shown = html.escape(link)
     data = {
         "bundle": BUNDLE.read_text(encoding="utf-8"),
-        "models": {type(part).__name__: dict(_values(part)) for part in (top, surface)},
+        "models": {type(part).__name__: dict(_values(part)) for part in (top, plane, surface)},
     }
     return PAGE.substitute(
         lang=spoken(),
@@ -92,7 +90,6 @@ def letter(scene, link="", look=None):
         title=say("share.letter.title", K_J=scene.constants.K_J, K_R=scene.constants.K_R),
         explorer=say("main.title"),
         notices=(BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),
-        plane=plane_div,
         card_top=say("roll.cards.top"),
         card_plane=say("roll.cards.plane", plane=PLANE),
         card_floor=say("roll.cards.floor", height=SYMBOLS["height"], plane=PLANE),

@@ -1,4 +1,4 @@
-"""Scene -> Bokeh: what all figures share, and the motion over time; Fig. 6 is in plane_figure.py.
+"""Scene -> Bokeh: what all figures share, and the motion over time.
 
 A figure is built once; after that only the sources with new numbers are sent. What moves often (the selected tieline,
 the line at the time of the clock) is on Bokeh's overlay level, which is repainted without the rest of its figure.
@@ -91,19 +91,6 @@ def draw(fig, kind, *xy, source, level="glyph", **looks):
     glyph = kind(**dict(zip(("x", "y"), xy, strict=False)), **looks)
     of_all = fig.renderers[0].view.filter if fig.renderers else AllIndices()
     return fig.add_glyph(source, glyph, level=level, view=CDSView(filter=of_all))
-
-
-class Motion:
-    """The tilt of the present motion over time, shared by the figures that follow the clock."""
-
-    def __init__(self):
-        self.source = ColumnDataSource({"t": np.zeros(2), "theta": np.zeros(2)})
-        self._shown = None
-
-    def show(self, scene):
-        if scene.trajectory is not self._shown:
-            self._shown = scene.trajectory
-            self.source.data = thinned(t=scene.trajectory.t, theta=scene.trajectory.theta)
 
 
 def thinned(**curves):

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { awayFromTieline, gripAt, REACH } from "../../app/frontend/src/figures/grips.js";
+import { awayFromTieline, gripAt, REACH } from "../../app/frontend/src/plane/grips.js";
 import { isFollowed } from "../../app/frontend/src/figures/seeking.js";
 import { modelOf } from "../../app/frontend/src/letter.js";
 import { stepOf } from "../../app/frontend/src/widgets/address.js";

@@ -4,6 +4,7 @@ import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
 import { renderLesson } from "./learn/lesson.js";
 import { renderSteps } from "./learn/steps.js";
+import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
@@ -50,6 +51,7 @@ export default {
   Painted: { render: renderPainted },
   Paper: { render: renderPaper },
   Phone: { render: renderPhone },
+  PlaneView: { render: renderPlane },
   Photo: { render: renderPhoto },
   Said: { render: renderSaid },
   Steps: { render: renderSteps },

@@ -37,7 +37,7 @@ type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
 // An earlier run, shown beside the present one.
 type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
 
-interface TopModel extends Model, Record<Shown, boolean> {
+interface TopModel extends Model, Record<Part3D, boolean> {
   before?: Before | null;
   degrees?: boolean; // the text of the handle
   letGo?(): void; // called when the axis is released
@@ -59,7 +59,7 @@ interface TopModel extends Model, Record<Shown, boolean> {
   measured?: Bytes;
   measured_label?: string;
 }
-type Shown = "show_track" | "show_com_path" | "show_force" | "show_cone" | "show_omega" | "show_momentum" | "follow";
+type Part3D = "show_track" | "show_com_path" | "show_force" | "show_cone" | "show_omega" | "show_momentum" | "follow";
 
 interface SurfaceModel extends Model {
   K_J: Bytes;
@@ -75,6 +75,17 @@ interface SurfaceModel extends Model {
   limit: "lift-off" | "slip";
   hand: [grip: "end" | "line" | "point", theta: number, K_J: number] | [];
   picked: [K_J: number, theta: number] | [];
+}
+
+interface PlaneModel extends Model {
+  state: string;
+  motion: Bytes;
+  limits: Bytes;
+  field: Bytes;
+  path: Bytes;
+  clock: string;
+  hand: [grip: string, theta: number, K_J: number] | [];
+  pressed: [count: number, road: string] | [];
 }
 
 interface DialModel extends Model {
@@ -237,6 +248,10 @@ interface LinesModel extends Model {
 type Column = ArrayLike<number> & { reduce(take: (best: number, value: number, row: number) => number, first: number): number };
 type Spot = [row: number, share: number];
 type PixelScale = { compute(value: number): number; invert(px: number): number };
+type RowPlace = { spot: Spot; row: number }; // between two rows, and the nearer one
+type Limits = Record<"K_J" | "lift_in" | "slip_in" | "slip_out" | "lift_out" | "verge" | "lift_verge" | "steady" | "slip_E", Float64Array> & { slip_by: string[]; lift_by: string[] };
+type Path = Record<"theta" | "low" | "high" | "K_J" | "K_R", Float32Array>;
+type Shown = Tieline & { K_R: number; steady: number };
 type Tieline = { K_J: number; inner: number; outer: number };
 
 // app/tabs/lab/lab.py says what each contains.

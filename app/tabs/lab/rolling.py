@@ -12,7 +12,6 @@ from app.text import say
 from app.widgets.cards import PLAIN, words
 from app.widgets.controls import named
 from app.widgets.plane_card import PlaneCard
-from app.widgets.plots import Motion
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.said import said
 from app.widgets.surface3d import Surface3D, show_surface
@@ -84,20 +83,15 @@ class Rolling:
         self.kept = said()
 
     def plane(self):
-        motion = Motion()
-        card = PlaneCard(motion, self._pacer.ask, self._slip, self._runs)
-        card.plane.hand.on_change("data", self._on_plane)
+        card = PlaneCard(self._pacer.ask, self._slip, self._runs)
+        card.plane.param.watch(asked.heard(self._on_plane), "hand")
+        card.plane.styles = {"height": HIGH}
 
         def select(scene):
             self._scene = scene
             card.show_selected(scene)
 
-        def draw(scene):
-            motion.show(scene)
-            card.plane.show_plane(scene)
-
-        place = pn.Column(*card.content, sizing_mode="stretch_width", margin=0, styles={"height": HIGH})
-        return [place], {"hand": select, "pictures": draw, "still": card.show_path}
+        return card.content, {"hand": select, "pictures": card.plane.show_plane, "still": card.show_path}
 
     def surface(self):
         surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])
@@ -132,10 +126,8 @@ class Rolling:
         """A request from the (K_J, theta) plane; limit: that of the tielines in the picture."""
         self._pacer.ask(**pulled(self._scene, grip, theta, K_J, limit))
 
-    def _on_plane(self, attr, old, new):
-        match new:  # a client other than the page may send anything
-            case {"grip": [str() as grip], "theta": [int() | float() as theta], "K_J": [int() | float() as K_J]}:
-                self._grabbed(grip, theta, K_J, "slip")
+    def _on_plane(self, event):
+        self._grabbed(*asked.parts(event.new, asked.text, asked.number, asked.number), "slip")
 
     def _on_surface(self, event):
         if event.name == "hand":

@@ -2,15 +2,14 @@
 import { keepFinger, moveBead, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
 import { followFilm, pullFilm } from "./measured.js";
-import { followMotion, pullPlane, sayPull } from "./plane.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
 import { followSpans, followWell } from "./run.js";
 import { pressSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
 
 const callbacks = {
-  followCurve, followFilm, followMotion, followSpans, followWell, keepFinger, moveBead, moveLines, nameFigure, pressSection, pullBead, pullFilm,
-  pullPlane, sayPull, seekAlong, seekOnCurve,
+  followCurve, followFilm, followSpans, followWell, keepFinger, moveBead, moveLines, nameFigure, pressSection, pullBead, pullFilm,
+  seekAlong, seekOnCurve,
 };
 
 export function offerCallbacks() {

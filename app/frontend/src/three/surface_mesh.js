@@ -1,7 +1,6 @@
 // The surface of Fig. 5: a mesh over theta and K_J, one row for each tieline.
 import * as THREE from "three";
 import { nearestRow } from "../figures/curves.js";
-import { isOn } from "../figures/grips.js";
 /** @import { Scale } from "./axes.js" */
 
 // From light to dark in even steps of OKLCH lightness, from yellow to brown: no line has one of these hues.
@@ -36,7 +35,7 @@ export class Grid {
   /** @param {[theta: number, K_J: number]} place */
   on([theta, K_J]) {
     const row = nearestRow(this.K_J, K_J), tilts = this.theta.subarray(row * this.columns, (row + 1) * this.columns);
-    return isOn(tilts, tilts.subarray(-1), 0, theta) ? row * this.columns + nearestRow(tilts, theta) : null;
+    return theta >= tilts[0] && theta <= tilts[tilts.length - 1] ? row * this.columns + nearestRow(tilts, theta) : null;
   }
 
   // Writes pairs of triangles between the rows to `index`; unused ones have no area.

@@ -1,7 +1,8 @@
 // What the pointer grabs on Fig. 6. Dragging the bead moves the clock, in the browser alone; dragging an end of the
 // selected tieline changes the energy, dragging the tieline itself changes K_J. Pressing on another tieline selects its
 // motion, and beyond the tielines the motion that has its turning point there.
-import { clamp, nearestRow } from "./curves.js";
+import { clamp } from "../figures/curves.js";
+import { isOn, placeIn } from "./reading.js";
 
 export const REACH = 14; // px
 const LEAST = 5; // px
@@ -29,9 +30,5 @@ export function gripAt(shown, limits, [px, py], [theta, K_J], { x, y }) {
   if (away(shown.theta) < near) return "bead";
   if (Math.min(away(shown.inner), away(shown.outer)) < near) return "end";
   if (away(clamp(x.invert(px), shown.inner, shown.outer)) < REACH) return "line";
-  return isOn(limits.slip_in, limits.slip_out, nearestRow(limits.K_J, K_J), theta) ? "tieline" : "point";
+  return isOn(limits.slip_in, limits.slip_out, placeIn(limits.K_J, K_J), theta) ? "tieline" : "point";
 }
-
-// Whether a tilt is on the tieline of a row; false if the row has none.
-/** @param {Column} inner @param {Column} outer @param {number} row @param {number} theta */
-export const isOn = (inner, outer, row, theta) => theta >= inner[row] && theta <= outer[row];
