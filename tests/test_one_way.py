@@ -297,7 +297,8 @@ def test_what_a_view_asks_is_all_that_it_does(alone):
     """Dragging in Fig. 6: the scene stays until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
     view = Rolling(pacer, None, None)
-    [plane], draws = view.plane()
+    [place], draws = view.plane()
+    [plane] = place
     draws["hand"](pacer.scene)
     plane.hand = ["line", 0.5, 6.0]
     [line] = pacer.asked

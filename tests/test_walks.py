@@ -9,23 +9,23 @@ from functools import partial, wraps
 from itertools import chain
 from pathlib import Path
 
+import app.tabs.roll.roll
 import panel as pn
 import pytest
+from app.model.planes.planes import Planes
+from app.tabs.planes.three_planes import ThreePlanes
+from app.tabs.roll.roll import Roll
 from bokeh.document import Document
 from house import keeping
 from panel.io.state import set_curdoc
 
 import app.model.explorer
-import app.tabs.roll.roll
 from app.model.build.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes.planes import Planes
 from app.model.runs import Runs
 from app.page.house import House
 from app.page.page import page
 from app.share.share import Share
-from app.tabs.planes.three_planes import ThreePlanes
-from app.tabs.roll.roll import Roll
 from app.widgets.controls import Control, Controls
 from app.widgets.guide import Guide
 from app.widgets.pacing import Pacer

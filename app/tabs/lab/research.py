@@ -58,8 +58,8 @@ class Research(param.Parameterized):
         }
         self.rolling = Rolling(pacer, runs, lambda: lab.ask(table="ordinary"))
         self._note = words(note(say("research.rolling")), visible=False, margin=(4, 0))
-        self.view = pn.Column(self._switch, self._note, *self._places.values(), controls, sizing_mode="stretch_width", margin=0,
-                              stylesheets=[AROUND])  # fmt: skip
+        self.view = pn.Column(self._switch, self._note, *self._places.values(), controls, sizing_mode="stretch_width",
+                              margin=0, stylesheets=[AROUND])  # fmt: skip
         self._makers = {
             "which": self.rolling.plane, "surface": self.rolling.surface, "portraits": self.rolling.portraits,
             "time": self._make_times, "values": self._make_values, "ends": self._make_ends,
@@ -106,7 +106,10 @@ class Research(param.Parameterized):
             for each, place in self._places.items():
                 place.visible = each == name
             for when in self._made[name]:
-                self._draw(when)
+                if when == "still":
+                    self._pacer.later(partial(self._draw, when))
+                else:
+                    self._draw(when)
 
     def _on_scene(self, when, scene):
         self._draw(when)

@@ -85,13 +85,13 @@ class Rolling:
     def plane(self):
         card = PlaneCard(self._pacer.ask, self._slip, self._runs)
         card.plane.param.watch(asked.heard(self._on_plane), "hand")
-        card.plane.styles = {"height": HIGH}
 
         def select(scene):
             self._scene = scene
             card.show_selected(scene)
 
-        return card.content, {"hand": select, "pictures": card.plane.show_plane, "still": card.show_path}
+        place = pn.Column(*card.content, sizing_mode="stretch_width", margin=0, styles={"height": HIGH})
+        return [place], {"hand": select, "pictures": card.plane.show_plane, "still": card.show_path}
 
     def surface(self):
         surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])

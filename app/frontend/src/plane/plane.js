@@ -185,7 +185,7 @@ export function renderPlane({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const figure = new PlaneFigure({ model, el }), listening = new AbortController(), { signal } = listening;
   for (const name of ["state", "motion", "limits", "field", "path"]) model.on(name, figure.update);
-  window.addEventListener(`tippe:clock${model.clock && `:${model.clock}`}`, ({ detail: { t } }) => figure.at(t), { signal });
+  window.addEventListener(`tippe:clock:${model.clock}`, ({ detail: { t } }) => figure.at(t), { signal });
   window.addEventListener("tippe:look", figure.look, { signal });
   const dispose = () => {
     listening.abort();
