@@ -1,7 +1,7 @@
 // The start as a person sets it: spin, tilt and friction, each with a slider and a field, and "Spin it". The table and
 // the top itself are in folds.
 import { Body } from "./body.js";
-import { Control } from "./control.js";
+import { Control } from "../controls/number.js";
 import { Launch } from "./launch.js";
 import { part, say, written } from "./parts.js";
 

@@ -1,6 +1,6 @@
 // A quantity of the start or of the top: a slider, a field for a number, and below them an error message, or how runs
 // end.
-import { part, read, say, written } from "./parts.js";
+import { part, read, say, written } from "../lab/parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, WIDE = 5.6, APART = 16; // px: least width of the strip of ends, a letter below it, a gap between words
