@@ -50,8 +50,8 @@ SPECIAL = (
 )
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
-HANDS = ("Dial", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Head", "Painted", "Top3D",
-         "Surface3D", "Range1d", "ColumnDataSource", "Location", "Button")  # fmt: skip
+HANDS = ("NumberControls", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Head", "Painted",
+         "Top3D", "Surface3D", "Range1d", "ColumnDataSource", "Location", "Button")  # fmt: skip
 
 
 def value(draw):
@@ -134,7 +134,7 @@ async def fuzz(url, messages, seed=1):
 async def among(url, messages):
     """Runs the fuzzer beside a visitor who moves one slider; returns the sentences for the fuzzer."""
     innocent = await Visitor.enter(of_roll(url))
-    slider = innocent.find("Dial")[0]
+    slider = innocent.find("NumberControls")[0]
     said = await fuzz(url, messages)
     answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, 6.5, False]))
     assert answered == "OK"
@@ -165,7 +165,9 @@ def test_messages_that_no_page_sends(attacked):
 
 async def moves(visitor):
     """Whether a slider of Roll still moves."""
-    answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
+    answered, _ = await visitor.answer(
+        await visitor.set(visitor.find("NumberControls")[0], "asked", [1, "K_J", 6.5, False])
+    )
     return answered == "OK"
 
 
@@ -185,7 +187,7 @@ async def no_messages(server):
     with pytest.raises(Closed):
         await visitor.receive()
     for i in range(200):
-        await deaf.set(deaf.find("Dial")[0], "asked", [i, 6 + i / 1000, False])
+        await deaf.set(deaf.find("NumberControls")[0], "asked", [i, "K_J", 6 + i / 1000, False])
     assert await moves(innocent)
     assert megabytes(server.process.pid) - before < 50
     deaf.leave(), innocent.leave()
@@ -229,7 +231,7 @@ async def each_attribute(url):
     for id, (name, _) in page.visitor.models.items():
         if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
             components.setdefault(re.sub(r"\d+$", "", name), []).append(id)
-    assert {"Dial", "Head", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
+    assert {"NumberControls", "Head", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
     # Whoever adds a component lists what the browser changes of it: others accept plain values only.
     named = {re.sub(r"\d+$", "", name) for name, _ in page.visitor.models.values() if re.search(r"[a-z3]D?\d+$", name)}
     assert named - set(CHANGES) - {"Range1d", "DataRange1d"} == set()
@@ -310,7 +312,7 @@ async def send_files(server):
     async def said(event, buffers=()):
         return await visitor.answer(await visitor.say("PATCH-DOC", {"events": [event]}, buffers=buffers))
 
-    for bomb in bombs(file, visitor.find("Dial")[0]):
+    for bomb in bombs(file, visitor.find("NumberControls")[0]):
         kind, content = await said(bomb)
         assert kind == "ERROR" and content["traceback"] is None
     for more, size in NO_FILES:

@@ -93,7 +93,7 @@ def surface(scene):
 
 
 def controls(scene):
-    view = Controls(scene, nothing, lambda make: make())
+    view = Controls(scene, nothing)
 
     def show(scene):
         view.follow(scene)
@@ -106,7 +106,7 @@ def controls(scene):
 
 def roll(scene):
     pacer = Shown(scene)
-    controls = Controls(scene, nothing, pacer.soon)
+    controls = Controls(scene, nothing)
     pacer.shows(controls.show, "rest")
     return Roll(pacer, Playing(), controls.card()), pacer.show
 
@@ -213,7 +213,7 @@ def seen(view):
         elif isinstance(thing, (Span, Label)):
             found[path] = np.asarray((thing.location if isinstance(thing, Span) else thing.text) * thing.visible)
         elif isinstance(thing, param.Parameterized) and hasattr(thing, "jslink"):  # a part of the page
-            for name in ("objects", "object", "value", "label", "options", "visible", "styles", "told", "words"):
+            for name in ("objects", "object", "value", "label", "options", "visible", "styles", "state"):
                 part = getattr(thing, name, None)
                 if isinstance(part, list) and name == "objects":
                     look(part, f"{path}/{name}")
@@ -297,7 +297,7 @@ def test_the_three_planes_work_alone(alone, plane):
 def test_what_a_view_asks_is_all_that_it_does(alone):
     """Dragging in Fig. 6, and dragging the axis of the top: the scene stays until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
-    view = Roll(pacer, Playing(), Controls(pacer.scene, nothing, pacer.soon).card())
+    view = Roll(pacer, Playing(), Controls(pacer.scene, nothing).card())
     view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.0]}
     [top] = view.main.select(Top3D)
     top.tilted = [0.6, 0.0, 1]

@@ -26,8 +26,9 @@ from app.page.page import page
 from app.share.share import Share
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
-from app.widgets.controls import Control, Controls
+from app.widgets.controls import Controls
 from app.widgets.guide import Guide
+from app.widgets.numbers import Numbers
 from app.widgets.pacing import Pacer
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plane_figure import PlaneFigure
@@ -41,7 +42,7 @@ SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room
 
 
 STATIONS = (
-    (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
+    (Numbers, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
     (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
     (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
     (Planes, "ask"), (Planes, "follow"), (Planes, "_run_anew"), (Planes, "_publish"), (ThreePlanes, "show"),
@@ -107,7 +108,7 @@ def told(title):
 
 def test_the_walk_of_a_slider(walk):
     made, passed, rest = walk("?v=1&tab=roll")
-    made[Controls]._controls["K_J"].view.asked = [1, 6.5, False]
+    made[Controls].numbers.view.asked = [1, "K_J", 6.5, False]
     rest()
     assert made[Roll]._scene.constants.K_J == 6.5
     assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
@@ -138,8 +139,7 @@ def test_the_walk_of_a_tieline_that_is_pulled(walk):
 @pytest.mark.slow
 def test_the_walk_of_a_run_with_friction(walk):
     made, passed, rest = walk("?v=1&tab=three-planes")
-    [dial] = [dial for dial in made[ThreePlanes].main.select(lambda part: getattr(part, "input", "") == "tilt")]
-    dial.asked = [1, 15.0, False]
+    made[ThreePlanes]._start.starts.view.asked = [1, "tilt", 15.0, False]
     rest()
     assert passed == told("A run with friction") and len({*passed}) == len(passed)
 

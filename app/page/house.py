@@ -130,7 +130,7 @@ class House:
         self._look_at("learn")
 
     def roll(self):
-        controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
+        controls = Controls(self.scene, self.pacer.ask)
         self.keep.add(controls)
         for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show, when)
@@ -144,7 +144,7 @@ class House:
         return button
 
     def build(self):
-        bench = Build(self.builder, self.pacer.soon)
+        bench = Build(self.builder)
         self.pacer.shows(bench.show, "rest")
         fields = RockingFields(self.builder)
         self._at_levels(lambda explores: setattr(fields.formula, "visible", not explores))

@@ -15,7 +15,7 @@ from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, words
-from app.widgets.controls import typed_number
+from app.widgets.numbers import typed_number
 from app.widgets.plots import draw, plain
 from tippe_core import TopError, TruncatedSphere
 

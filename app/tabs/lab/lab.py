@@ -71,7 +71,7 @@ class LabView(Bundled):
     also what it conserves, float32 rows as of app.model.keeps. All are empty if there is no such motion.
     """
 
-    SAYS = ("Stage", "Top3D")
+    SAYS = ("Stage", "Top3D", "NumberControls")
     REGIMES = "here"
 
     # JSON, because Panel and Bokeh search each part of a dict again and again, which was a quarter of a move

@@ -9,14 +9,34 @@ from app.model.setup import TABLES
 from app.tabs.planes.words import degrees, stem_words
 from app.text import listed, say
 from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, note, on_click, progress, words
-from app.widgets.controls import Control, Wish
+from app.widgets.controls import control, track
+from app.widgets.numbers import Numbers
+from app.widgets.typeset import typeset
 
 NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
-NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
+BY_HAND = ("spin", "tilt", "slip")
+OF_FRICTION = ("mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
 SWITCHED = (*SWITCHES, "stem")
 SLIDES = ("ordinary", "three")  # planes with friction, on which the top can also hop
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
+
+
+class Wish:
+    """A widget that requests a value of one input when it is used by hand; show() sets it to the present value."""
+
+    def __init__(self, view, name, ask):
+        self.view, self._shown, self._name, self._ask = view, view.value, name, ask
+        view.param.watch(self._chosen, "value")
+
+    def _chosen(self, event):
+        if event.new != self._shown:
+            self._shown = event.new
+            self._ask(**{self._name: event.new})
+
+    def show(self, value):
+        self._shown = value
+        self.view.value = value
 
 
 class StartCard:
@@ -28,18 +48,16 @@ class StartCard:
 
     def __init__(self, inputs, ask, choose, stop):
         self._ask, self._choose, self._law, self._plane = ask, choose, inputs["law"], inputs["plane"]
-        self._refused = set()  # the controls whose values are
-        self.controls = {name: Control(name, inputs[name], self._set) for name in NUMBERS_SET}
+        self._by, self._refused = inputs["by"], set()  # refused: the controls whose values are
+        self.starts = Numbers([control(name) for name in (*BY_HAND, "seconds")], self._set, margin=(0, 14, 8, 16))
+        self.numbers = Numbers([control(name) for name in OF_FRICTION], self._set, margin=(0, 14, 8, 16))
+        self._shown = ({name: inputs[name] for name in (*BY_HAND, "seconds", *OF_FRICTION)}, {}, {}, {})
         self.switches = {name: self._switch(name, inputs[name]) for name in SWITCHES}
         box = pmui.Checkbox(value=inputs["stem"], label=say("planes.stem.can"), description="", size="small",
                             margin=(0, 14, 0, 6))  # fmt: skip
         self.switches["stem"] = Wish(box, "stem", ask)
         self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
         self._lands = words(say("planes.keys.lands"), margin=(6, 14, 0, 16))
-        views = {name: control.view for name, control in self.controls.items()}
-        self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
-        self.numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0)
-                        for name in dict.fromkeys(name for names in NUMBERS.values() for name in names)}  # fmt: skip
         self._bar, end = words(margin=(10, 8)), pmui.Button(label=say("planes.run.stop"), **NARROW)
         on_click(end, lambda event: stop())
         # room is reserved for it, so that nothing below moves when it appears
@@ -47,13 +65,13 @@ class StartCard:
         self.show_progress(None)
         self.view = card(
             say("planes.cards.start"), self._presets(), self.progress, self._said["run"], self.switches["by"].view,
-            self._said["by"], self._starts, views["seconds"], self.switches["law"].view, self._said["law"],
-            *self.numbers.values(), self._lands, self.switches["landing"].view, self.switches["stem"].view,
+            self._said["by"], self.starts.view, self.switches["law"].view, self._said["law"],
+            self.numbers.view, self._lands, self.switches["landing"].view, self.switches["stem"].view,
             self._said["stem"], height="max-content",
         )  # fmt: skip
         self.look(self._plane)
 
-    def _set(self, name, value, typed=False):
+    def _set(self, name, value, typed):
         self._ask(**{name: value})
 
     def _switch(self, name, value):
@@ -80,13 +98,20 @@ class StartCard:
         self._plane, slides = plane, plane in SLIDES
         for part in (self.switches["law"].view, self._said["law"], self._lands, self.switches["landing"].view):
             part.visible = slides or "law" in self._refused
-        for name, number in self.numbers.items():
-            number.visible = (slides and name in NUMBERS[self._law]) or name in self._refused
+        by = BY_HAND if self._by == "spin" else ()
+        seen = {*by, "seconds", *(NUMBERS[self._law] if slides else ())} | self._refused - {*BY_HAND}
+        values, notes, messages, nearest = self._shown
+        for group, names in ((self.starts, (*BY_HAND, "seconds")), (self.numbers, OF_FRICTION)):
+            kept = {name: float(values[name]) for name in names}
+            group.show(kept, {name: track(name, kept[name]) for name in names},
+                       notes={name: notes.get(name, "") for name in names}, messages=_of(messages, names),
+                       refused=_of(values, {*names} & {*messages}), nearest=_of(nearest, {*names} & {*messages}),
+                       hidden={*names} - seen)  # fmt: skip
 
     def show(self, picture, *, busy):
         """Shows the inputs of a Picture, unless newer ones have been requested, and those that were refused."""
         settings = picture.settings
-        notes = {name: _note(name, picture) for name in self.controls}
+        notes = {name: _note(name, picture) for name in self._shown[0]}
         self._tell(picture, notes | {"stem": stem_words(settings), "by": _start_words(picture)}, busy=busy)
         self.switches["stem"].view.visible = settings.shape is not None and settings.shape.touch_angle is not None
 
@@ -98,18 +123,21 @@ class StartCard:
         """answer: a Picture or a Refusal. What belongs to no control is said at the head of the card."""
         inputs, messages = answer.inputs, answer.messages
         self._law, self._refused = inputs["law"], {*messages}
-        self._starts.visible = inputs["by"] == "spin"
+        self._by = inputs["by"]
         if not busy:
-            for name, control in self.controls.items():
-                control.show(inputs[name], inputs[name], notes.get(name, ""), messages.get(name),
-                             nearest=answer.nearest.get(name))  # fmt: skip
+            at = {name: typeset(said) for name, said in messages.items() if name in self._shown[0]}
+            self._shown = ({name: inputs[name] for name in self._shown[0]}, notes, at, answer.nearest)
             for name in SWITCHED:
                 self.switches[name].show(inputs[name])
-        others = [said for name, said in messages.items() if name not in {*self.controls, *self._said, *TABLES}]
+        others = [said for name, said in messages.items() if name not in {*self._shown[0], *self._said, *TABLES}]
         for name, said in self._said.items():
             why = " ".join([*others, messages.get(name, "")]) if name == "run" else messages.get(name, "")
             said.object = alert(why.strip()) or notes.get(name, "")
         self.look(self._plane)
+
+
+def _of(values, names):
+    return {name: values[name] for name in names if name in values}
 
 
 def _start_words(picture):

@@ -1,7 +1,7 @@
 // A group of number controls and choices, in the order in which Python lists them. One request at a time is on its way.
 import { Control } from "./number.js";
 import { forFingers, numbers, shared } from "./style.js";
-import { ask, local } from "../data.js";
+import { ask } from "../data.js";
 import { Asking } from "../lab/asking.js";
 import { Choice, part } from "../lab/parts.js";
 
@@ -11,7 +11,7 @@ const style = `${shared}${numbers}
 .group .titled, .group > .small, .group > .choice { grid-column: 1 / -1; }
 .group > .choice { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 8px; }
 .seg { flex-wrap: wrap; background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
-.ctl .unit:empty { display: none; } .ctl label[title], [title] { cursor: help; } .ctl .small { min-height: calc(1.45em * var(--lines, 0)); }
+.ctl .unit { min-width: 0; } .ctl .unit:empty { display: none; } .ctl label[title], [title] { cursor: help; } .ctl .small { min-height: calc(1.45em * var(--lines, 0)); }
 i, sub, sup { font-family: Georgia, serif; } sub, sup { font-size: .75em; line-height: 0; }
 .bad input[type=range] { opacity: .38; } .bad .small { display: none; }
 .ticks { position: relative; height: 1.6em; margin-top: -4px; font-size: var(--t-s); color: var(--ink-2); }
@@ -26,7 +26,6 @@ class Group {
   /** @param {Rendering<NumberControlsModel>} rendering */
   constructor({ model, el }) {
     this.model = model;
-    this.texts = { ...model.texts, decimal: local(".") };
     this.last = ""; // the input that was asked for last
     this.asking = new Asking((count, name, [wish, typed]) => ask(model, [count, name, wish, typed]));
     this.place = part("div", { class: "group" });
@@ -86,8 +85,8 @@ class Group {
     return part("p", { class: "small" });
   }
 
-  number({ name, lines, marks, ...said }) {
-    const control = new Control(name, said, this.texts, this.ask);
+  number({ name, said, lines, marks }) {
+    const control = new Control(name, said, this.model.texts, this.ask);
     control.slider.dataset.input = name;
     control.note(" ");
     control.element.style.setProperty("--lines", lines);
@@ -100,7 +99,7 @@ class Group {
     const state = JSON.parse(this.model.state);
     this.asking.hear(state.answered);
     for (const [name, element] of this.parts) element.hidden = state.hidden.includes(name);
-    for (const [name, html] of Object.entries(state.words)) this.parts.get(name).innerHTML = html;
+    for (const [name, html] of Object.entries(state.words)) /** @type {HTMLElement} */ (this.parts.get(name)).innerHTML = html;
     for (const [name, choice] of this.choices) if (!this.isAhead(name)) choice.show(state.values[name]);
     for (const [name, control] of this.controls) {
       control.show(state, this.isAhead(name));

@@ -58,7 +58,7 @@ export const numbers = `
 .num { width: 72px; border: 0; border-bottom: 1px solid var(--line-2); background: none; padding: 0; height: 24px; border-radius: 0; text-align: right; font-variant-numeric: tabular-nums; }
 .num:focus-visible { outline-offset: 0; }
 .unit { color: var(--ink-2); margin-left: 4px; display: inline-block; min-width: 3ch; }
-.ctl > :is(.below, .wrong) { grid-column: 1 / -1; }
+.ctl > :is(.ticks, .below, .wrong) { grid-column: 1 / -1; }
 .ctl input[type=range] { grid-column: 1 / -1; -webkit-appearance: none; appearance: none; width: 100%; height: 24px; margin: 0; background: none; cursor: pointer; }
 .ctl input::-webkit-slider-runnable-track { height: 4px; border-radius: 2px; background: linear-gradient(90deg, var(--accent) var(--p, 50%), var(--line-2) var(--p, 50%)); }
 .ctl input::-moz-range-track { height: 4px; border-radius: 2px; background: linear-gradient(90deg, var(--accent) var(--p, 50%), var(--line-2) var(--p, 50%)); }
