@@ -136,7 +136,7 @@ async def among(url, messages):
     innocent = await Visitor.enter(of_roll(url))
     slider = innocent.find("NumberControls")[0]
     said = await fuzz(url, messages)
-    answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, 6.5, False]))
+    answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, "K_J", 6.5, False]))
     assert answered == "OK"
     innocent.leave()
     return said
@@ -204,7 +204,7 @@ def test_what_is_no_message_or_is_never_read_disturbs_nobody(attacked):
 
 ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 3000,
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
-GOOD = {"asked": [7, 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
+GOOD = {"asked": [7, "K_J", 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
         "gesture": 7, "dark": False}  # fmt: skip
 GOOD_OF = {
     ("Head", "asked"): [7, "table", "rough"],
@@ -354,9 +354,10 @@ def look(*events, models, buffers=()):
 
 
 @pytest.mark.parametrize("kind, attribute, takes, refuses", [
-    ("Dial1", "asked", [[1, 6.5, False], [2, "6,5", True]],
-     [None, 7, [], [1, 6.5], [1, 6.5, 0], [True, 6.5, False], [-1, 6.5, False], [1, 1e16, False], [1, [], False],
-      [1, "9" * 301, True], [1, float("nan"), False], [1, 10**400, False], [1, 6.5, False, 0]]),
+    ("NumberControls1", "asked", [[1, "K_J", 6.5, False], [2, "K_J", "6,5", True]],
+     [None, 7, [], [1, "K_J", 6.5], [1, "K_J", 6.5, 0], [True, "K_J", 6.5, False], [-1, "K_J", 6.5, False],
+      [1, "K_J", 1e16, False], [1, "K_J", [], False], [1, "K_J", "9" * 301, True], [1, "x" * 301, 6.5, False],
+      [1, 7, 6.5, False], [1, "K_J", float("nan"), False], [1, "K_J", 10**400, False], [1, "K_J", 6.5, False, 0]]),
     ("Head1", "asked", [[1, "room", "lab"], [2, "dark", True]],
      [None, 7, [1, "room"], [-1, "room", "lab"], [1, "room", 7], [1, "x" * 301, ""], [1, "toy", None]]),
     ("Select1", "value", ["a", None], ["c", 1, ["a"], {}]),

@@ -5,6 +5,7 @@ import math
 
 import param
 
+from app.model.inputs import INPUTS
 from app.model.regimes import NAMES
 from app.model.region import PAPER
 from app.text import listed, say, written
@@ -40,28 +41,6 @@ SYMBOLS = {
     "time": "<i>t</i>",
 }
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
-# start, end and step of each slider; a typed number may be outside
-RANGES = {
-    "K_J": (0, 9, 0.01),
-    "K_R": (-20, 20, 0.05),
-    "mu_s": (0, 1.5, 0.005),
-    "energy": (0, 2.2, 0.005),
-    "a": (-2, 0.5, 0.005),
-    "I1": (0.05, 2, 0.001),
-    "I3": (0.05, 2, 0.001),
-    "theta": (0, math.pi, 0.005),
-    "theta_dot": (-8, 8, 0.02),
-    "omega2": (-8, 8, 0.02),
-    "omega3": (-16, 16, 0.05),
-    "spin": (0, 40, 0.1),
-    "tilt": (0, 180, 0.5),
-    "slip": (0, 1, 0.01),
-    "seconds": (0.5, 30, 0.5),
-    "mu": (0.01, 1, 0.005),
-    "eps": (0.01, 1, 0.005),
-    "patch": (0.05, 2, 0.05),
-    "gamma": (0, 2, 0.01),
-}
 # Lines of words below, reserved so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
@@ -70,9 +49,15 @@ PICTURES = {"upper": {"whole": True, "poles": False, "paper": PAPER}, "limit": {
 OF_A_MOTION = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3", *FACES["state"])
 
 
+def hints(language=None):
+    """{name of a symbol: what it is}."""
+    of_inputs = {name: said["hint"] for name, said in listed("controls.inputs", language).items()}
+    return listed("controls.hints", language) | of_inputs
+
+
 def named(name):
     """A symbol, whose name is shown on hover."""
-    return f'<span title="{html.escape(say(f"controls.hints.{name}"))}">{SYMBOLS[name]}</span>'
+    return f'<span title="{html.escape(hints()[name])}">{SYMBOLS[name]}</span>'
 
 
 def worst(scene):
@@ -82,17 +67,15 @@ def worst(scene):
 
 def control(name, **more):
     """The part of a group for one input."""
-    spoken, speaks = listed(f"controls.spoken.{name}")
-    title = f"{SYMBOLS[name]} {say(f'controls.names.{name}')}"
-    return number(name, spoken, say(f"controls.units.{name}"), named=title, speaks=speaks,
-                  hint=say(f"controls.hints.{name}"), lines=LINES.get(name, 0), **more)  # fmt: skip
+    said = listed(f"controls.inputs.{name}")
+    return number(name, said | {"name": said["spoken"], "html": f"{SYMBOLS[name]} {said['name']}"},
+                  lines=LINES.get(name, 0), **more)  # fmt: skip
 
 
 def track(name, value, bounds=None):
     """(least, most, step, decimals) of its slider, which reaches to the value."""
-    low, high, step = RANGES[name]
-    low, high = bounds or (low, high)
-    return min(low, value), max(high, value), step, None
+    low, high = bounds or (INPUTS[name].low, INPUTS[name].high)
+    return min(low, value), max(high, value), INPUTS[name].step, None
 
 
 class Controls(param.Parameterized):

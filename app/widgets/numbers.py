@@ -31,11 +31,10 @@ def heading(text, choice=None):
     return {"kind": "heading", "text": text, "choice": choice}
 
 
-def number(name, spoken, unit="", *, named, speaks="", hint="", lines=0, marks=()):
-    """A number control. spoken, speaks: its name and unit as they are read aloud; named: its name as HTML; lines: of
-    words that are reserved below; marks: (value, word) of named places on the slider."""
-    typed = say("controls.entry", name=spoken, unit=speaks) if speaks else spoken
-    said = {"name": spoken, "html": named, "typed": typed, "unit": unit, "speaks": speaks, "hint": hint}
+def number(name, said, *, lines=0, marks=()):
+    """A number control. said: its words: name, typed (that of its field) and unit; html, speaks: the name and the unit
+    as they are shown and read aloud; hint: on hover; lines: of words that are reserved below; marks: (value, word) of
+    named places on the slider."""
     return {"kind": "number", "name": name, "said": said, "lines": lines, "marks": [list(mark) for mark in marks]}
 
 

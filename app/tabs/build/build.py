@@ -30,7 +30,8 @@ def knob(dimension):
     """The part of a group for one dimension of the body."""
     letter, unit = symbol(dimension.name), dimension.unit
     title = f"{letter} {html.escape(dimension.words)}".strip()
-    return number(dimension.name, dimension.words, unit, named=title, speaks=unit)
+    said = {"name": dimension.words, "typed": f"{dimension.words}, {unit}".strip(", "), "unit": unit, "html": title}
+    return number(dimension.name, said)
 
 
 class Pieces:

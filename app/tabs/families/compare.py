@@ -36,7 +36,7 @@ class Compare:
         self.kind = self._buttons("kinds")
         self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
-        spoken = {name: listed(f"controls.spoken.{name}")[0] for name, _ in self.FIELDS}
+        spoken = {name: say(f"controls.inputs.{name}.spoken") for name, _ in self.FIELDS}
         self.entries = {name: field("", say("family.map.entry", name=spoken[name]), width=76) for name in spoken}
         self._prefill()
         self.said = words()

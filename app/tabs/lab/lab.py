@@ -15,7 +15,8 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
-from app.model.lab.allowed import SHOWN
+from app.model.inputs import INPUTS
+from app.model.lab.allowed import LIMITS, SHOWN
 from app.model.lab.lab import FIRST, Lab
 from app.model.setup import OF_LAW, shape_of
 from app.state import asked
@@ -25,10 +26,7 @@ from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import TopError
 
-SLIDERS = {
-    "spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2), "mu_s": (0.01, 1, 0.01, 2),
-    "gamma": (0, 2, 0.01, 2), "eps": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2),
-}  # fmt: skip
+SLIDERS = {name: (each.low, each.high, each.step, each.digits) for name, each in INPUTS.items() if name in LIMITS}
 """{input: (least, most, step, decimals) of its slider}; values outside can be typed."""
 SOON = 0.05  # s: a run that is done sooner is not shown as under way
 LOOKS = 0.3  # s between two updates of the progress of a run
@@ -56,9 +54,12 @@ def digits_of(dimension):
     return max(0, -math.floor(math.log10(dimension.step)))
 
 
+def capital(words):
+    return words[0].upper() + words[1:]
+
+
 def _word(dimension):
-    said = listed("lab.dimensions").get(dimension.key, dimension.words)
-    return said[0].upper() + said[1:]
+    return capital(listed("lab.dimensions").get(dimension.key, dimension.words))
 
 
 class LabView(Bundled):
@@ -96,7 +97,13 @@ class LabView(Bundled):
 
     @classmethod
     def says(cls, language=None):
-        return super().says(language) | listed("lab_view.view", language)
+        return super().says(language) | listed("lab_view.view", language) | {"inputs": inputs(language)}
+
+
+def inputs(language=None):
+    """{input: its words}, as at the head of a control."""
+    known = listed("controls.inputs", language)
+    return {name: known[name] | {"name": capital(known[name]["name"])} for name in LIMITS}
 
 
 def lab_view(lab, keep, go, explain):
@@ -271,11 +278,11 @@ class LabTab:
     def _told(self, scene):
         view, start, slides = listed("lab_view.view"), scene.start, scene.table in ("ordinary", "three")
         law, numbers = start.law, [name for name in OF_LAW[start.law] if name != "mu"]
-        inputs = [view["inputs"][name] for name in numbers]
+        said_of = inputs()
         headline, why = scene.said
         return {
             "table": scene.table,
-            "rubs": [[name, said["typed"], said["unit"]] for name, said in zip(numbers, inputs, strict=True)] * slides,
+            "rubs": [[name, said["typed"], said["unit"]] for name in numbers for said in (said_of[name],)] * slides,
             "of": {
                 "law": [law, f"{view['law']}: {listed('planes.law')[law]}", f"{view['law']}:"],
                 **{name: [getattr(start, name), self._named(start, name)] for name in inputs_of(law)},
@@ -313,7 +320,7 @@ class LabTab:
     @staticmethod
     def _named(start, name):
         """An input of a start with its value, in words."""
-        said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
+        said, digits = inputs()[name], SLIDERS[name][-1]
         gap = "" if said["unit"] in ("", "°") else " "
         number = f"{getattr(start, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")
         return spelled(f"{said['name']} {number}{gap}{said['unit']}")
