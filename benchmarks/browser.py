@@ -62,10 +62,10 @@ WATCH = """
 (ours) => {
   const bench = window.bench = {inputs: [], figure: [], page: []}
   const models = [...Bokeh.documents[0]._all_models.values()]
-  const dial = models.find((m) => m.data?.attributes?.spoken && m.data.told?.[1] == 7)?.data
+  const dial = models.find((m) => m.data?.parts && JSON.parse(m.data.state).values.K_J == 7)?.data
   const slider = models.find((m) => m.type.includes("Slider") && m.value == 7)
   const hand = ours ? dial.properties.asked : slider.properties.value
-  const value = () => ours ? dial.asked[1] : slider.value
+  const value = () => ours ? dial.asked[2] : slider.value
   const view = (name) => Bokeh.index.find_one(models.find((m) => m.name == name && m.renderers))
   hand.change.connect(() => bench.inputs.push([window.event?.timeStamp ?? performance.now(), value()]))
   const painted = (part, value) => {

@@ -88,7 +88,7 @@ class Active(Page):
             spin = 20 + 0.1 * len(self.times)
             await self.visitor.set(self.lab[0], "asked", [len(self.times) + 1, "spin", round(spin, 1)])
         elif self.dial:
-            await self.visitor.set(self.dial[0], "asked", [len(self.times), value, False])
+            await self.visitor.set(self.dial[0], "asked", [len(self.times), "K_J", value, False])
         else:
             await self.visitor.set(self.slider[0], "value", value)
 

@@ -93,9 +93,9 @@ class Alone:
 
     def send(self):
         """Sends what Python has changed."""
-        for number, news in self._news.items():
+        changes, self._news = self._news, {}
+        for number, news in changes.items():
             self.page.evaluate("([number, news]) => shown[number].take(news)", [number, news])
-        self._news.clear()
 
     def put(self, component, **values):
         component.param.update(**values)

@@ -60,13 +60,13 @@ def lists(value, *others):
 
 @pytest.mark.slow
 def test_a_dial_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
-    controls = Controls(explorer.scene, pacer.ask, pacer.soon)
-    control = controls._controls["K_J"]
+    controls = Controls(explorer.scene, pacer.ask)
+    control = controls.numbers
     for typed, wish in ((False, 6.0), (True, "6")):
-        for sent in lists(value, 1, wish, typed):
+        for sent in lists(value, 1, "K_J", wish, typed):
             control.view.asked = sent
             assert math.isfinite(explorer.scene.constants.K_J)
-    control.view.asked = [99, 6.25, False]
+    control.view.asked = [99, "K_J", 6.25, False]
     assert pacer._wanted.get("K_J", explorer.K_J) == 6.25
 
 
@@ -87,19 +87,19 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
     with set_curdoc(Document()):
         explorer = Explorer()
         workshop = Build(builder_of(explorer))
-        knob = next(iter(workshop._knobs.values()))
-        for sent in lists(value, 1, 20.0, False):
+        knob = workshop.dimensions
+        for sent in lists(value, 1, "R", 20.0, False):
             if value != 1e308:  # unusual, but a number: it is answered like one
                 knob.view.asked = sent
                 assert workshop.builder.draft.shape.R in (0.016, 0.020)
-        knob.view.asked = [99, 18.0, False]
+        knob.view.asked = [99, "R", 18.0, False]
         assert workshop.builder.draft.shape.R == 0.018
 
 
 @pytest.mark.slow
 def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line):
     keep, playing = Keep(), Playing()
-    controls = Controls(pacer._explorer.scene, pacer.ask, pacer.soon)
+    controls = Controls(pacer._explorer.scene, pacer.ask)
     top = Top3D()
     together(playing, top)
     keep.add(playing)

@@ -22,7 +22,7 @@ PLACES = """() => [...Bokeh.documents[0]._all_models.values()].filter((model) =>
 COLOURS = """() => {
     const all = (root) => [...root.querySelectorAll("*")]
         .flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
-    const kinds = "[role=tab][aria-selected=false], .MuiToggleButton-root:not(.Mui-selected), label"
+    const kinds = "[role=tab][aria-selected=false], [role=radio][aria-checked=false], label"
     const widgets = all(document).filter((e) => e.matches(kinds) && e.offsetParent)
     return widgets.map((e) => getComputedStyle(e).color.match(/[\\d.]+/g).slice(0, 3).map(Number))
         .map(([r, g, b]) => r + g + b)

@@ -1,5 +1,6 @@
 """The tab for building a body, without a browser: its fields, its sentences, and whether the body turns over."""
 
+import json
 import warnings
 from dataclasses import replace
 from types import SimpleNamespace
@@ -14,7 +15,7 @@ from app.model.build.verdict import Verdict, verdict
 from app.model.explorer import Explorer
 from app.model.run import TooLong
 from app.model.runs import Full, Runs, Stopped
-from app.tabs.build.build import KNOBS, Build
+from app.tabs.build.build import Build
 from app.tabs.build.verdict import VerdictWords
 from tippe_core import (
     PRESETS,
@@ -30,6 +31,11 @@ from tippe_core import (
 @pytest.fixture
 def explorer():
     return Explorer()
+
+
+def told(bench):
+    """{dimension: its value} as the controls show them."""
+    return json.loads(bench.dimensions.view.state)["values"]
 
 
 @pytest.fixture
@@ -78,10 +84,10 @@ def test_the_inside_is_chosen_where_a_body_has_one(builder, explorer):
     bench = Build(builder)
     assert bench.inside.view.visible and bench.inside.switch.value == "solid" and not bench.inside.steel.visible
     bench.inside.switch.value = "both"
-    assert {"hole", "depth", "disc", "thickness", "height"} <= {*bench._knobs} and bench.inside.steel.visible
+    assert {"hole", "depth", "disc", "thickness", "height"} <= {*told(bench)} and bench.inside.steel.visible
     assert explorer.scene.shape.disc > 0 and "the disc is not in it" in bench.derived.object
     builder.choose(PRESETS[0].name)
-    assert bench.inside.switch.value == "solid" and "hole" not in bench._knobs
+    assert bench.inside.switch.value == "solid" and "hole" not in told(bench)
     builder.choose("Uniform ball")
     assert not bench.inside.view.visible and builder.draft.name == "Uniform ball"
 
@@ -92,7 +98,7 @@ def test_a_material_sets_the_density_and_the_density_says_which_material_it_is(b
     bench.material.view.value = "beech"
     shape = explorer.scene.shape
     assert shape.density == pytest.approx(710) and bench.material.view.value == "beech"
-    assert bench._knobs["density"].view.told[1] == pytest.approx(710)
+    assert told(bench)["density"] == pytest.approx(710)
     assert (shape.top.a, shape.top.I1, shape.top.I3) == pytest.approx(
         (lambda top: (top.a, top.I1, top.I3))(TruncatedSphere.paper().top))  # fmt: skip
     builder.set("density", 675.2)
@@ -126,25 +132,28 @@ def test_nothing_of_it_is_to_go_from_panel(builder):
         assert Build(builder).saved.variant == "outlined"
 
 
-def test_many_pieces_have_their_knobs_in_portions(builder, explorer):
-    """Creating hundreds of them at once would block the server for seconds."""
+def test_many_pieces_have_their_controls_soon(builder, explorer):
+    """Of hundreds of them: they are one component, so that they do not block the server."""
     many = 100
     points = tuple((0.01 + 0.001 * (i % 2), -0.009 + 0.0005 * i) for i in range(many))
-    asked = []
-    bench = Build(builder, asked.append)
+    bench = Build(builder)
     builder.load(save_top(Lathe(R=0.02, points=points, density=(700.0,) * many)))
-    assert len(bench._knobs) == KNOBS and len(asked) == 1
-    while asked:
-        asked.pop()()
-    assert list(bench._knobs) == [each.name for each in builder.draft.dimensions] and len(bench._knobs) > many
-    assert sum(len(part) for part in bench.dimensions) == len(bench._knobs)
+    assert [*told(bench)] == [each.name for each in builder.draft.dimensions] and len(told(bench)) > many
+    assert [part["name"] for part in json.loads(bench.dimensions.view.parts)] == [*told(bench)]
+    builder.choose(PRESETS[0].name)
+    assert [*told(bench)] == [each.name for each in builder.draft.dimensions] and len(told(bench)) < 32
 
-    builder.choose(PRESETS[0].name)
-    builder.load(save_top(Lathe(R=0.02, points=points, density=(700.0,) * many)))
-    [late] = asked
-    builder.choose(PRESETS[0].name)
-    late()  # another body is on the bench by now
-    assert list(bench._knobs) == [each.name for each in builder.draft.dimensions] and len(bench._knobs) < KNOBS
+
+def test_a_dimension_that_cannot_be_says_so_and_offers_the_nearest_that_can(builder, explorer):
+    bench, before = Build(builder), builder.draft.shape
+    bench.dimensions.view.asked = [1, "r", 99.0, True]
+    state = json.loads(bench.dimensions.view.state)
+    assert builder.draft.shape is before and state["refused"] == {"r": 99.0} and state["messages"]["r"]
+    assert state["values"]["r"] == pytest.approx(1e3 * before.r)
+    near = state["nearest"]["r"]
+    bench.dimensions.view.asked = [2, "r", near, True]
+    state = json.loads(bench.dimensions.view.state)
+    assert not state["messages"] and builder.draft.shape.r == pytest.approx(near / 1e3) and near > state["answered"]
 
 
 @pytest.mark.slow

@@ -7,7 +7,8 @@ from PIL import Image
 
 from app.bundle import Bundled, pack
 from app.share.parts import Photo
-from app.widgets.controls import Control
+from app.widgets.controls import control, track
+from app.widgets.numbers import Numbers
 from app.widgets.surface3d import Surface3D
 from app.widgets.top3d import Top3D, pack_frames
 
@@ -164,34 +165,59 @@ def test_the_surface_holds_what_was_sent_reads_it_off_and_tells_what_was_picked(
 
 def test_a_control_is_told_only_what_answers_its_last_wish(alone):
     asked, found = [], alone()
-    control = Control("K_J", 7.0, lambda name, value, typed=False: asked.append((value, typed)))
-    page = found.show(control.view)
+    group = Numbers([control("K_J")], lambda name, value, typed: asked.append((name, value, typed)))
+
+    def show(value):
+        group.show({"K_J": value}, {"K_J": track("K_J", value)}, notes={"K_J": "said"})
+
+    show(7.0)
+    page = found.show(group.view)
     slider, field = page.get_by_role("slider", name="Jellett’s constant"), page.get_by_role("textbox")
     for _ in range(3):
         slider.press("ArrowLeft")
-    found.until(lambda: len(asked) == 3)
-    assert asked == [(6.99, False), (6.98, False), (6.97, False)]
+    found.until(lambda: asked == [("K_J", 6.99, False)])  # one at a time; of those that wait, the newest
     assert slider.get_attribute("aria-valuetext") == "6.97 root g over R"
-    # an answer to the first request after the next one was sent
-    found.put(control.view, told=[1, 6.99, "6.99"], words="said")
-    page.get_by_text("said").wait_for()
+    show(6.99)  # an answer to the first request after the next one was made
+    found.send()
+    found.until(lambda: len(asked) == 2)
+    assert asked[1] == ("K_J", 6.97, False)
     assert slider.input_value() == "6.97" and field.input_value() == "6.97"
-
-    control.follow(6.5, 6.5)  # something else changed it
+    show(6.5)  # something else changed it
     found.send()
     page.wait_for_function("input => input.value == '6.5'", arg=slider.element_handle())
     assert field.input_value() == "6.5"
     field.fill("half")
-    control.follow(6.4, 6.4)  # typed text is not overwritten
+    show(6.4)  # typed text is not overwritten
     found.send()
     page.wait_for_function("input => input.value == '6.4'", arg=slider.element_handle())
     assert field.input_value() == "half"
     field.press("Enter")
     page.get_by_role("alert").get_by_text("not a number").wait_for()
-    field.fill("−2,5")
+    assert field.input_value() == "half"
+    page.get_by_role("button", name="Back to 6.4").click()
+    found.until(lambda: asked[-1] == ("K_J", 6.4, False))
+
+
+def test_a_typed_number_is_sent_as_typed_and_escape_brings_back_what_was(alone):
+    asked, found = [], alone()
+    group = Numbers([control("energy", marks=enumerate(["steady", "slips", "lifts off"]))],
+                    lambda name, value, typed: asked.append((name, value, typed)))  # fmt: skip
+    group.show({"energy": 0.5}, {"energy": track("energy", 0.5)}, fields={"energy": 26.9})
+    page = found.show(group.view)
+    slider, field = page.get_by_role("slider", name="energy"), page.get_by_role("textbox")
+    assert slider.get_attribute("aria-valuetext") == "50 percent of the way from steady to slips"
+    field.fill("30")
+    field.press("Escape")
+    assert field.input_value() == "26.9" and not asked
+    field.fill("28")
     field.press("Enter")
-    found.until(lambda: len(asked) == 4)
-    assert asked[3] == (-2.5, True)  # and no value from Python came back as a request
+    found.until(lambda: asked == [("energy", 28, True)])
+    field.fill("−2,5")
+    group.show({"energy": 0.5}, {"energy": track("energy", 0.5)}, fields={"energy": 26.9})  # the answer
+    found.send()
+    field.press("Enter")
+    found.until(lambda: asked[1:] == [("energy", -2.5, True)])  # and nothing from Python came back as a request
+    assert slider.input_value() == "0.5"  # its slider has the share between the marks, the field E
 
 
 NO_WEBGL = """const real = HTMLCanvasElement.prototype.getContext

@@ -50,8 +50,8 @@ SPECIAL = (
 )
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
-HANDS = ("Dial", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Head", "Painted", "Top3D",
-         "Surface3D", "Range1d", "ColumnDataSource", "Location", "Button")  # fmt: skip
+HANDS = ("NumberControls", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Head", "Painted",
+         "Top3D", "Surface3D", "Range1d", "ColumnDataSource", "Location", "Button")  # fmt: skip
 
 
 def value(draw):
@@ -134,9 +134,9 @@ async def fuzz(url, messages, seed=1):
 async def among(url, messages):
     """Runs the fuzzer beside a visitor who moves one slider; returns the sentences for the fuzzer."""
     innocent = await Visitor.enter(of_roll(url))
-    slider = innocent.find("Dial")[0]
+    slider = innocent.find("NumberControls")[0]
     said = await fuzz(url, messages)
-    answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, 6.5, False]))
+    answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, "K_J", 6.5, False]))
     assert answered == "OK"
     innocent.leave()
     return said
@@ -165,7 +165,9 @@ def test_messages_that_no_page_sends(attacked):
 
 async def moves(visitor):
     """Whether a slider of Roll still moves."""
-    answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
+    answered, _ = await visitor.answer(
+        await visitor.set(visitor.find("NumberControls")[0], "asked", [1, "K_J", 6.5, False])
+    )
     return answered == "OK"
 
 
@@ -185,7 +187,7 @@ async def no_messages(server):
     with pytest.raises(Closed):
         await visitor.receive()
     for i in range(200):
-        await deaf.set(deaf.find("Dial")[0], "asked", [i, 6 + i / 1000, False])
+        await deaf.set(deaf.find("NumberControls")[0], "asked", [i, "K_J", 6 + i / 1000, False])
     assert await moves(innocent)
     assert megabytes(server.process.pid) - before < 50
     deaf.leave(), innocent.leave()
@@ -202,7 +204,7 @@ def test_what_is_no_message_or_is_never_read_disturbs_nobody(attacked):
 
 ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 3000,
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
-GOOD = {"asked": [7, 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
+GOOD = {"asked": [7, "K_J", 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
         "gesture": 7, "dark": False}  # fmt: skip
 GOOD_OF = {
     ("Head", "asked"): [7, "table", "rough"],
@@ -230,7 +232,7 @@ async def each_attribute(url):
     for id, (name, _) in page.visitor.models.items():
         if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
             components.setdefault(re.sub(r"\d+$", "", name), []).append(id)
-    assert {"Dial", "Head", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
+    assert {"NumberControls", "Head", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
     # Whoever adds a component lists what the browser changes of it: others accept plain values only.
     named = {re.sub(r"\d+$", "", name) for name, _ in page.visitor.models.values() if re.search(r"[a-z3]D?\d+$", name)}
     assert named - set(CHANGES) - {"Range1d", "DataRange1d"} == set()
@@ -311,7 +313,7 @@ async def send_files(server):
     async def said(event, buffers=()):
         return await visitor.answer(await visitor.say("PATCH-DOC", {"events": [event]}, buffers=buffers))
 
-    for bomb in bombs(file, visitor.find("Dial")[0]):
+    for bomb in bombs(file, visitor.find("NumberControls")[0]):
         kind, content = await said(bomb)
         assert kind == "ERROR" and content["traceback"] is None
     for more, size in NO_FILES:
@@ -353,9 +355,10 @@ def look(*events, models, buffers=()):
 
 
 @pytest.mark.parametrize("kind, attribute, takes, refuses", [
-    ("Dial1", "asked", [[1, 6.5, False], [2, "6,5", True]],
-     [None, 7, [], [1, 6.5], [1, 6.5, 0], [True, 6.5, False], [-1, 6.5, False], [1, 1e16, False], [1, [], False],
-      [1, "9" * 301, True], [1, float("nan"), False], [1, 10**400, False], [1, 6.5, False, 0]]),
+    ("NumberControls1", "asked", [[1, "K_J", 6.5, False], [2, "K_J", "6,5", True]],
+     [None, 7, [], [1, "K_J", 6.5], [1, "K_J", 6.5, 0], [True, "K_J", 6.5, False], [-1, "K_J", 6.5, False],
+      [1, "K_J", 1e16, False], [1, "K_J", [], False], [1, "K_J", "9" * 301, True], [1, "x" * 301, 6.5, False],
+      [1, 7, 6.5, False], [1, "K_J", float("nan"), False], [1, "K_J", 10**400, False], [1, "K_J", 6.5, False, 0]]),
     ("Head1", "asked", [[1, "room", "lab"], [2, "dark", True]],
      [None, 7, [1, "room"], [-1, "room", "lab"], [1, "room", 7], [1, "x" * 301, ""], [1, "toy", None]]),
     ("Select1", "value", ["a", None], ["c", 1, ["a"], {}]),

@@ -58,7 +58,7 @@ def until_field(visit, place, value):
 
 
 def show_state(visit):
-    visit.page.get_by_role("button", name="initial state").click()
+    visit.page.get_by_role("radio", name="State", exact=True).click()
     visit.page.locator(":text('its rate'):visible").wait_for()
 
 
@@ -101,9 +101,9 @@ def visit(one):
     """That page with its first motion, whatever an earlier test has done."""
     page = one.page
     page.mouse.up()  # in case a test failed with the button pressed
-    if page.get_by_role("button", name="constants", exact=True).get_attribute("aria-pressed") != "true":
-        page.get_by_role("button", name="constants", exact=True).click()
-        page.locator(":text('Routh’s constant'):visible").wait_for()
+    if page.get_by_role("radio", name="Constants", exact=True).get_attribute("aria-checked") != "true":
+        page.get_by_role("radio", name="Constants", exact=True).click()
+        page.get_by_role("slider", name="Routh’s constant").wait_for()
     # after releasing, the step of undo is made a moment later
     page.wait_for_function(
         f"""([undo, first]) => {{ undo.click(); const now = ({SELECTED})()
@@ -249,8 +249,8 @@ def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(v
     visit.until_column("constants", 0, "K_J", constants.K_J)
     visit.page.get_by_text(f"{constants.K_J:.4g}".replace("-", "−")).first.wait_for()
     before = visit.column("theta", 0, "theta")
-    visit.page.get_by_role("button", name="constants", exact=True).click()
-    visit.page.locator(":text('Routh’s constant'):visible").wait_for()
+    visit.page.get_by_role("radio", name="Constants", exact=True).click()
+    visit.page.get_by_role("slider", name="Routh’s constant").wait_for()
     for name in ("K_J", "K_R"):
         until_field(visit, FIELDS[name], float(f"{getattr(constants, name):.6g}"))
     until_field(visit, FIELDS["energy"], float(f"{constants.E:.6g}"))

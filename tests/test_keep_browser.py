@@ -1,6 +1,7 @@
 """Keeping the state, in Chromium: link, QR code, undo, and files that are opened and compared."""
 
 import io
+import json
 import re
 
 import numpy as np
@@ -141,8 +142,8 @@ def test_a_bad_link_says_so_and_shows_the_first_motion(server, query):
     visitor = run(visit())
     [said] = re.findall(r'role="alert">(.*?link.*?)</div>', visitor.says)
     assert "<script" not in said and len(said) < 500
-    dials = [visitor.models[dial][1] for dial in visitor.find("Dial", "told")]
-    assert {dial["input"]: dial["told"][1] for dial in dials}["K_J"] == 7
+    states = [json.loads(visitor.models[group][1]["state"]) for group in visitor.find("NumberControls", "state")]
+    assert states[0]["values"]["K_J"] == 7
 
 
 def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):

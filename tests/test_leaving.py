@@ -130,12 +130,14 @@ async def ask_of_a_broken_server(here, monkeypatch):
     await page.set(table, "clicks", 3)  # the same file again
     await page.until(lambda: page.now(table, "file")[:2] == [2, before])
 
-    dial, known = page.visitor.find("Dial")[0], len(page.visitor.models)
+    dial, known = page.visitor.find("NumberControls")[0], len(page.visitor.models)
     await fails(
-        page, monkeypatch, "app.model.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, 5.5, False])
+        page, monkeypatch, "app.model.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, "K_J", 5.5, False])
     )
-    await page.set(dial, "asked", [2, 5.6, False])
-    await page.until(lambda: page.now(dial, "told")[:2] == [2, 5.6])
+    await page.set(dial, "asked", [2, "K_J", 5.6, False])
+    await page.until(
+        lambda: (told := json.loads(page.now(dial, "state")))["answered"] == 2 and told["values"]["K_J"] == 5.6
+    )
 
     await page.head("room", "families")
     await page.until(lambda: len(page.visitor.models) > known + 50)

@@ -92,7 +92,7 @@ def surface(scene):
 
 
 def controls(scene):
-    view = Controls(scene, nothing, lambda make: make())
+    view = Controls(scene, nothing)
 
     def show(scene):
         view.follow(scene)
@@ -218,7 +218,7 @@ def seen(view):
         elif isinstance(thing, (Span, Label)):
             found[path] = np.asarray((thing.location if isinstance(thing, Span) else thing.text) * thing.visible)
         elif isinstance(thing, param.Parameterized) and hasattr(thing, "jslink"):  # a part of the page
-            for name in ("objects", "object", "value", "label", "options", "visible", "styles", "told", "words"):
+            for name in ("objects", "object", "value", "label", "options", "visible", "styles", "state"):
                 part = getattr(thing, name, None)
                 if isinstance(part, list) and name == "objects":
                     look(part, f"{path}/{name}")

@@ -168,11 +168,11 @@ async def class_opens(server):
         students.append(Clocked(visitor))
         await visitor.ready()
     other, moves, lives = await visitors.come(server.url), [], []
-    [dial, *_] = other.visitor.find("Dial")
+    [dial, *_] = other.visitor.find("NumberControls")
 
     async def move():
         while True:
-            await other.set(dial, "asked", [len(moves) + 1, 6 + 0.01 * (len(moves) % 90), False])
+            await other.set(dial, "asked", [len(moves) + 1, "K_J", 6 + 0.01 * (len(moves) % 90), False])
             moves.append(time.monotonic())
             await asyncio.sleep(0.02)
 

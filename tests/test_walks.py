@@ -107,7 +107,7 @@ def told(title):
 
 def test_the_walk_of_a_slider(walk):
     made, passed, rest = walk("?v=1&tab=roll")
-    made[Controls]._controls["K_J"].view.asked = [1, 6.5, False]
+    made[Controls].numbers.view.asked = [1, "K_J", 6.5, False]
     rest()
     assert made[Roll]._scene.constants.K_J == 6.5
     assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
@@ -138,8 +138,7 @@ def test_the_walk_of_a_tieline_that_is_pulled(walk):
 @pytest.mark.slow
 def test_the_walk_of_a_run_with_friction(walk):
     made, passed, rest = walk("?v=1&tab=three-planes")
-    [dial] = [dial for dial in made[ThreePlanes].main.select(lambda part: getattr(part, "input", "") == "tilt")]
-    dial.asked = [1, 15.0, False]
+    made[ThreePlanes]._start.starts.view.asked = [1, "tilt", 15.0, False]
     rest()
     assert passed == told("A run with friction") and len({*passed}) == len(passed)
 

@@ -27,9 +27,9 @@ async def come(url, language="en"):
 
 async def stay(page, K_J):
     """Moves the first slider, and opens each room."""
-    dial = page.visitor.find("Dial")[0]
+    dial = page.visitor.find("NumberControls")[0]
     for i in range(MOVES):
-        await page.set(dial, "asked", [i + 1, K_J + 0.05 * i, False])
+        await page.set(dial, "asked", [i + 1, "K_J", K_J + 0.05 * i, False])
     await open_rooms(page)
 
 

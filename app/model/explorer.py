@@ -2,13 +2,15 @@
 
 from dataclasses import replace
 from functools import lru_cache
+from math import floor, log10, nan
 from types import MappingProxyType
 from typing import Any
 
 import param
 
+from app.model.marks import LARGEST
 from app.model.region import PAPER, Upper
-from app.model.scene import Scene, solve
+from app.model.scene import LEAST_INERTIA, Scene, solve
 from app.model.start import Start, rolls
 from app.text import told
 from app.together import set_together
@@ -110,13 +112,31 @@ class Explorer(Start):
                 raise
             control = {"E": "energy"}.get(error.name, error.name)
             asked = {name: getattr(self, name) for name in self.scene.inputs} | {"mu_s": self.static}
-            self._follow(scene=replace(self.scene, inputs=MappingProxyType(asked),
-                                       messages=MappingProxyType({control: told(error)})))  # fmt: skip
+            near = _nearest(error, asked)
+            self._follow(scene=replace(
+                self.scene, inputs=MappingProxyType(asked), messages=MappingProxyType({control: told(error)}),
+                nearest=MappingProxyType({} if near is None else {control: near})))  # fmt: skip
             return
         kept = {name: getattr(self, name) for name in ("given", *self.GIVEN["hand"] * (self.given == "hand"))}
         scene = replace(scene, inputs=MappingProxyType(scene.inputs | kept))
         names = self.FOLLOWS - set(self.GIVEN[self.given])
         self._follow(scene=scene, **{name: scene.inputs[name] for name in names})
+
+
+def _nearest(error: TopError, asked: dict[str, Any]) -> float | None:
+    """The possible value that is nearest to the one at fault, with the other inputs as they were asked for; None if
+    another input was asked for."""
+    name, value = error.name, error.value
+    if name == "E":
+        least = error.numbers.get("least")  # rounded to six digits, so the next one is surely possible
+        return None if least is None else float(f"{least + 10.0 ** (floor(log10(abs(least))) - 5):.6g}")
+    least, most = {
+        "a": (-LARGEST, 0.999), "I1": (max(asked["I3"] / 2, LEAST_INERTIA), LARGEST),
+        "I3": (LEAST_INERTIA, min(2 * asked["I1"], LARGEST)), "mu_s": (0.0, LARGEST), "theta": (0.001, 3.1415),
+    }.get(name, (nan, nan))  # fmt: skip
+    if value != asked.get(name) or not least <= most:
+        return None
+    return float(min(max(value, least), most))
 
 
 @lru_cache(12)

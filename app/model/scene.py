@@ -55,7 +55,8 @@ class Scene:
     the radius of the body that is drawn and its height above O along axis 3; shape, the body, None if a, I1, I3 were
     set independently of it (scales are then still its R and M). lost: the energy that the grip of the rough table has
     taken. inputs: those of the Explorer, by name. messages: a sentence for each control whose value was refused;
-    everything but the inputs is then that of the last valid Scene. notes: sentences about what is shown.
+    everything but the inputs is then that of the last valid Scene; nearest: {control: the nearest possible value}, if
+    that is known. notes: sentences about what is shown.
     """
 
     top: Top
@@ -85,6 +86,7 @@ class Scene:
     lost: float
     inputs: MappingProxyType[str, Any]
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    nearest: MappingProxyType[str, float] = field(default_factory=lambda: MappingProxyType({}))
     notes: tuple[str, ...] = ()
 
     @property

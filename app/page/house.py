@@ -135,7 +135,7 @@ class House:
         return view
 
     def _research(self):
-        controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
+        controls = Controls(self.scene, self.pacer.ask)
         self.keep.add(controls)
         for show_scene, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show_scene, when)
@@ -158,7 +158,7 @@ class House:
         return button
 
     def build(self):
-        bench = Build(self.builder, self.pacer.soon)
+        bench = Build(self.builder)
         self.pacer.shows(bench.show, "rest")
         fields = RockingFields(self.builder)
         self._at_levels(lambda explores: setattr(fields.formula, "visible", not explores))

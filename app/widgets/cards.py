@@ -120,8 +120,12 @@ def swatch(colour, text, style="solid"):
 
 
 def card(title, *content, height=HEIGHT_OF_A_CARD):
+    return boxed(words(f"<h2>{title}</h2>"), *content, height=height)
+
+
+def boxed(*content, height):
+    """A card without a title."""
     return pn.Column(
-        words(f"<h2>{title}</h2>"),
         *content,
         sizing_mode="stretch_width",
         margin=0,

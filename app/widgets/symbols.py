@@ -2,6 +2,7 @@
 
 from app.bundle import Bundled
 from app.text import listed
+from app.widgets.controls import hints
 
 
 class Symbols(Bundled):
@@ -9,4 +10,4 @@ class Symbols(Bundled):
 
     @classmethod
     def says(cls, language=None):
-        return {"symbols": listed("controls.hints", language), "terms": listed("glossary.terms", language)}
+        return {"symbols": hints(language), "terms": listed("glossary.terms", language)}

@@ -24,7 +24,8 @@ test("a symbol is recognised by its letter and its subscript", () => {
 
 test("every symbol with an explanation has a sketch", () => {
   const text = readFileSync(new URL("../../app/text/en/controls.toml", import.meta.url), "utf8");
-  const [, hints] = text.split("[hints]\n"), names = [...hints.split("\n[")[0].matchAll(/^(\w+) = /gm)].map(([, name]) => name);
+  const [, hints] = text.split("[hints]\n"), others = hints.split("\n[")[0].matchAll(/^(\w+) = /gm);
+  const names = [...others, ...text.matchAll(/^\[inputs\.(\w+)\]/gm)].map(([, name]) => name);
   assert.ok(names.length > 20);
   for (const name of names) assert.match(sketchOf(name) ?? name, /^<svg/);
 });

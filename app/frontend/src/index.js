@@ -1,3 +1,4 @@
+import { renderNumberControls } from "./controls/group.js";
 import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
@@ -9,7 +10,6 @@ import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
-import { renderDial } from "./widgets/dial.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
 import { renderFilmStage } from "./widgets/film_stage.js";
@@ -36,7 +36,6 @@ export default {
   Address: { render: renderAddress },
   Connection: { render: renderConnection },
   Copy: { render: renderCopy },
-  Dial: { render: renderDial },
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
@@ -48,6 +47,7 @@ export default {
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Moments: { render: renderMoments },
+  NumberControls: { render: renderNumberControls },
   Painted: { render: renderPainted },
   Paper: { render: renderPaper },
   Phone: { render: renderPhone },

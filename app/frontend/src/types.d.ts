@@ -88,22 +88,12 @@ interface PlaneModel extends Model {
   pressed: [count: number, road: string] | [];
 }
 
-interface DialModel extends Model {
-  input: string;
-  title: string;
-  hint: string;
-  spoken: string;
-  unit: string;
-  marks: [value: number, word: string][];
-  lines: number;
-  step: number;
-  start: number;
-  end: number;
-  told: [count: number, value: number, text: string];
-  asked: [count: number, wish: number | string, typed: boolean] | [];
-  words: string;
-  wrong: boolean;
-  nearest: [value: number, says: string] | [];
+// The words of a number control: its name, the name of its field, its unit; in HTML, on hover and as it is read aloud.
+type Said = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string };
+interface NumberControlsModel extends Model {
+  parts: string;
+  state: string;
+  asked: [count: number, name: string, wish: number | string, typed: boolean] | [];
 }
 
 type KnownTop = { name: string; label: string; a: number; ratio: number; outline: [radius: number, height: number][] };

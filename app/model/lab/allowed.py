@@ -5,16 +5,14 @@ import math
 from types import MappingProxyType
 from typing import TypeAlias
 
+from app.model.inputs import INPUTS
 from app.model.setup import LAWS, TABLES, TOYS
 from app.text import say
 from tippe_core import Shape, Top
 
-LIMITS = MappingProxyType({
-    "spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "slip": (-10.0, 10.0), "mu": (0.01, 1.5), "mu_s": (0.01, 1.5),
-    "gamma": (0.0, 10.0), "eps": (0.01, 5.0), "patch": (0.01, 5.0),
-})  # fmt: skip
-"""{input: the range in which the Lab lets it be set}, in rev/s, degrees, mm, R, M and g; the sliders have smaller
-ranges."""
+LIMITS = MappingProxyType({name: (INPUTS[name].least, INPUTS[name].most)
+                           for name in ("spin", "tilt", "slip", "mu", "mu_s", "gamma", "eps", "patch")})  # fmt: skip
+"""{input: the range in which the Lab lets it be set}."""
 POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0), "slip": (-1e6, 1e6)} | {
     name: (0.0, 1e3) for name in ("mu", "mu_s", "gamma", "eps", "patch")
 })  # fmt: skip

@@ -3,61 +3,35 @@
 import html
 import io
 import math
-from functools import partial
 
 import panel as pn
 import panel_material_ui as pmui
 
-from app.borrowed import WholeFile, at_once
+from app.borrowed import WholeFile
 from app.model.build.builder import LARGEST_FILE
-from app.model.build.dimensions import FAMILIES, named, value_of
+from app.model.build.dimensions import FAMILIES, named, nearest, value_of
 from app.model.build.inside import inside
-from app.state import asked
 from app.tabs.build.fields import grid, symbol
 from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, words
-from app.widgets.controls import Dial, asked_of, number, typed_number, wording
+from app.widgets.numbers import Numbers, number, tidy, typed_number
+from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
-KNOBS = 32  # created at a time
 SAYS = "calc(55px * var(--type, 1))"  # room for three lines about the source of a preset
 NARROW = {"max-width": "max(326px, min(100%, 100vh - 300px))"}  # so that the results below the section are in sight
 IN_A_ROW = "fieldset { flex-direction: row !important; align-items: center; gap: 10px }"
 OWN = ""  # because a select cannot show that nothing is chosen
 
 
-class Knob:
-    """One dimension of the body: a Dial. pull: called with its name and the requested value, in SI."""
-
-    def __init__(self, dimension, pull):
-        self.dimension, self._pull, self._heard = dimension, pull, 0
-        name, spoken = dimension.name, f"{dimension.words}, {dimension.unit}".strip(", ")
-        self.view = Dial(
-            input=name, title=f'{symbol(name)}&ensp;<span class="note">{spoken}</span>'.removeprefix("&ensp;"),
-            spoken=dimension.words, unit=dimension.unit, step=dimension.step, start=dimension.low, end=dimension.high,
-            sizing_mode="stretch_width", margin=(0, 6, 8, 6),
-        )  # fmt: skip
-        at_once(self.view, "asked")
-        self.view.param.watch(asked.heard(self._asked), "asked")
-
-    def _asked(self, event):
-        self._heard, value, typed = asked_of(event.new)
-        if typed:
-            try:
-                value = typed_number(value)
-            except ValueError:
-                self.say(say("build.bench.not_a_number", text=value, number=self.dimension.high))
-                return
-        self._pull(self.dimension.name, value / self.dimension.factor)
-
-    def show(self, shape):
-        value = float(f"{value_of(shape, self.dimension.name) * self.dimension.factor:.9g}")
-        self.view.param.update(told=[self._heard, value, number(value)], **wording(""))
-
-    def say(self, text):
-        self.view.param.update(**wording(text, wrong=True))
+def knob(dimension):
+    """The part of a group for one dimension of the body."""
+    letter, unit = symbol(dimension.name), dimension.unit
+    title = f"{letter} {html.escape(dimension.words)}".strip()
+    said = {"name": dimension.words, "typed": f"{dimension.words}, {unit}".strip(", "), "unit": unit, "html": title}
+    return number(dimension.name, said)
 
 
 class Pieces:
@@ -100,7 +74,7 @@ class Pieces:
             density = getattr(shape, "density", shape.mass / shape.volume)
             # what is removed must be exactly what was added: the number itself, not its displayed digits
             self._exact = density[0] if isinstance(density, tuple) else density
-            self.density.value = number(self._exact)
+            self.density.value = tidy(self._exact)
         self.words.object = ""
 
     def _compose(self, sign):
@@ -112,7 +86,7 @@ class Pieces:
                 which = say(f"build.pieces.names.{name}")
                 self.words.object = alert(say("build.pieces.not_a_number", name=which, text=entry.value))
                 return
-        density = self._exact if self.density.value == number(self._exact) else values["density"]
+        density = self._exact if self.density.value == tidy(self._exact) else values["density"]
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
 
 
@@ -143,12 +117,11 @@ class TopFile(WholeFile):
 
 
 class Build:
-    """The builder's cards. builder: a Builder; soon: that of a Pacer; if a body has many pieces, its knobs are created
-    in portions, so that other work comes in between. show() is for each scene of a hand at rest."""
+    """The builder's cards. builder: a Builder. show() is for each scene of a hand at rest."""
 
-    def __init__(self, builder, soon=lambda make: make()):
-        self.builder, self._soon = builder, soon
-        self._knobs, self._shown, self._silent = {}, None, False
+    def __init__(self, builder):
+        self.builder, self._tried = builder, {}  # the last requested value of a dimension, in its unit
+        self._dimensions, self._shown, self._silent = {}, None, False
         self.section = Section(builder.set)
         self.derived, self.file_words = words(), words()
         self.source = words(styles={"min-height": SAYS})  # so that nothing below it moves when a hand changes the body
@@ -156,7 +129,7 @@ class Build:
         self.families = self._choice("family", builder.choose_family)
         self.material = Material(lambda density: builder.set("density", density))
         self.inside = Inside(builder.fill)
-        self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.dimensions = Numbers([], self._pull, margin=(6, 0))
         self.section.figure.on_event("doubletap", self._tapped_twice)
         self.parting = self._button("parts", lambda event: builder.part_densities())
         buttons = flow(self._button("add", lambda event: builder.add_point()), self._button("remove", self._remove),
@@ -176,6 +149,11 @@ class Build:
             visible=False, sizing_mode="stretch_width", margin=0)  # fmt: skip
         builder.param.watch(lambda event: self._show(event.new), "draft")
         self._show(builder.draft)
+
+    def _pull(self, name, value, typed):
+        """A request for a dimension, in its unit."""
+        self._tried = {name: value}
+        self.builder.set(name, value / self._dimensions[name].factor)
 
     def _choice(self, key, choose):
         select = pmui.Select(label=say(f"build.bench.{key}"), options={}, value=None, size="small",
@@ -230,7 +208,7 @@ class Build:
             choices,
             self.source,
             self.inside.view,
-            self.dimensions,
+            self.dimensions.view,
             self.points,
             *self.pieces.view,
             files,
@@ -244,7 +222,7 @@ class Build:
     def _show(self, draft):
         with pn.io.hold():
             self._show_fields(draft)
-            elsewhere = {"measured", *self._knobs}
+            elsewhere = {"measured", *self._dimensions}
             said = [text for name, text in draft.messages.items() if name not in elsewhere]
             self.file_words.object = alert(said[0] if said else "")
             if draft.messages:
@@ -256,9 +234,8 @@ class Build:
     def _show_fields(self, draft):
         now = [draft.family, *((dimension.name, dimension.words) for dimension in draft.dimensions)]
         if now != self._shown:
-            self._shown = now
-            self._knobs, self.dimensions.objects = {}, []
-            self._add_knobs(now)
+            self._shown, self._dimensions = now, {each.name: each for each in draft.dimensions}
+            self.dimensions.lay_out([knob(each) for each in draft.dimensions])
         free = isinstance(draft.shape, Lathe)
         self.points.visible = free
         if free:
@@ -266,11 +243,7 @@ class Build:
         self.pieces.show(draft.shape)
         self.inside.show(draft.shape)
         self.material.show(draft.shape)
-        for name, knob in self._knobs.items():
-            if name in draft.messages:
-                knob.say(draft.messages[name])
-            elif not draft.messages:
-                knob.show(draft.shape)
+        self._show_dimensions(draft)
         self._silent = True
         # the chosen entry cannot be chosen again, so a changed body has an entry of its own
         own = {} if draft.name else {say("build.bench.none"): OWN}
@@ -283,19 +256,16 @@ class Build:
         self._silent = False
         self.stl.disabled = isinstance(draft.shape, BareSphere)
 
-    def _add_knobs(self, shown):
-        """Creates the next KNOBS of them, unless others are shown by now."""
-        draft = self.builder.draft
-        more = draft.dimensions[len(self._knobs) :]
-        if shown is not self._shown or not more:
-            return
-        added = {dimension.name: Knob(dimension, self.builder.set) for dimension in more[:KNOBS]}
-        self._knobs |= added
-        for knob in added.values():
-            knob.show(draft.shape)
-        self.dimensions.append(grid(*(knob.view for knob in added.values())))
-        if len(more) > KNOBS:
-            self._soon(partial(self._add_knobs, shown))
+    def _show_dimensions(self, draft):
+        dimensions, shape = self._dimensions, draft.shape
+        values = {name: float(f"{value_of(shape, name) * each.factor:.9g}") for name, each in dimensions.items()}
+        tracks = {name: (min(each.low, values[name]), max(each.high, values[name]), each.step, None)
+                  for name, each in dimensions.items()}  # fmt: skip
+        wrong = {name: typeset(said) for name, said in draft.messages.items() if name in dimensions}
+        tried = {name: value for name, value in self._tried.items() if name in wrong}
+        near = {name: nearest(shape, dimensions[name], value) for name, value in tried.items()}
+        self.dimensions.show(values, tracks, messages=wrong, refused=tried,
+                             nearest={name: value for name, value in near.items() if value is not None})  # fmt: skip
 
     def show(self, scene):
         """Says whether the scene's numbers are those of the body."""

@@ -8,7 +8,7 @@ from app.model.build.dimensions import value_of
 from app.model.build.measures import measures
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say
-from app.widgets.controls import number
+from app.widgets.numbers import tidy
 from app.widgets.plots import PAPER, draw
 
 COLUMN, STEP = 0.10, 0.035  # relative to the figure: from the body to the first of the heights, and between two of them
@@ -72,4 +72,4 @@ class Dimensioned:
     @staticmethod
     def _text(dimension, value):
         name = say(f"build.short.{dimension.key}")
-        return f"{name} {number(value * dimension.factor)} {dimension.unit}".strip()
+        return f"{name} {tidy(value * dimension.factor)} {dimension.unit}".strip()

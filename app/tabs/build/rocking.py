@@ -8,7 +8,7 @@ from app.model.build.dimensions import sentence
 from app.tabs.build.fields import grid
 from app.text import listed, say
 from app.widgets.cards import BUTTON, alert, field, note, on_click, words
-from app.widgets.controls import typed_number
+from app.widgets.numbers import typed_number
 from tippe_core import TopError
 
 

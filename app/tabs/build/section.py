@@ -11,7 +11,7 @@ from app.model.build.dimensions import handles, pulled, value_of
 from app.model.colours import COLOURS, FAINT, INK
 from app.tabs.build.dimensioned import Dimensioned
 from app.text import say
-from app.widgets.controls import number
+from app.widgets.numbers import tidy
 from app.widgets.plots import PAPER, draw, plain
 from tippe_core import LoadedSphere, TruncatedSphere, Turned
 
@@ -130,8 +130,8 @@ class Section:
             "x": [1e3 * x for x, _ in at.values()],
             "z": [1e3 * z for _, z in at.values()],
             "name": list(at),
-            "says": [f"{said[name].words}: {number(value_of(shape, name) * said[name].factor)} {said[name].unit}"
-                     if name in said else say("build.bench.point", x=number(1e3 * x), z=number(1e3 * z))
+            "says": [f"{said[name].words}: {tidy(value_of(shape, name) * said[name].factor)} {said[name].unit}"
+                     if name in said else say("build.bench.point", x=tidy(1e3 * x), z=tidy(1e3 * z))
                      for name, (x, z) in at.items()],
         }  # fmt: skip
 

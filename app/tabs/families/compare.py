@@ -15,7 +15,7 @@ from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, words
-from app.widgets.controls import typed_number
+from app.widgets.numbers import typed_number
 from app.widgets.plots import draw, plain
 from tippe_core import TopError, TruncatedSphere
 
@@ -36,7 +36,7 @@ class Compare:
         self.kind = self._buttons("kinds")
         self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
-        spoken = {name: listed(f"controls.spoken.{name}")[0] for name, _ in self.FIELDS}
+        spoken = {name: say(f"controls.inputs.{name}.spoken") for name, _ in self.FIELDS}
         self.entries = {name: field("", say("family.map.entry", name=spoken[name]), width=76) for name in spoken}
         self._prefill()
         self.said = words()

@@ -14,13 +14,14 @@ import panel as pn
 from app.borrowed import at_once
 from app.bundle import pack
 from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
-from app.model.lab.allowed import SHOWN
+from app.model.inputs import INPUTS
+from app.model.lab.allowed import LIMITS, SHOWN
 from app.model.lab.examples import EXAMPLES
 from app.model.lab.lab import FIRST, Lab
 from app.model.setup import OF_LAW, shape_of
 from app.state import asked
 from app.state.names import LEVELS
-from app.tabs.lab.view import LabView
+from app.tabs.lab.view import LabView, capital, inputs
 from app.tabs.lab.words import is_caught
 from app.text import listed, say, speaking, spoken
 from app.widgets.failure import after
@@ -28,10 +29,7 @@ from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import Top, TopError
 
-SLIDERS = {
-    "spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "slip": (0, 1.5, 0.05, 2), "mu": (0.01, 1, 0.01, 2),
-    "mu_s": (0.01, 1, 0.01, 2), "gamma": (0, 2, 0.01, 2), "eps": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2),
-}  # fmt: skip
+SLIDERS = {name: (each.low, each.high, each.step, each.digits) for name, each in INPUTS.items() if name in LIMITS}
 """{input: (least, most, step, decimals) of its slider}; values outside can be typed."""
 SOON = 0.05  # s: a run that is done sooner is not shown as under way
 LOOKS = 0.3  # s between two updates of the progress of a run
@@ -60,8 +58,7 @@ def digits_of(dimension):
 
 
 def _word(dimension):
-    said = listed("lab.dimensions").get(dimension.key, dimension.words)
-    return said[0].upper() + said[1:]
+    return capital(listed("lab.dimensions").get(dimension.key, dimension.words))
 
 
 def lab_view(lab, keep, **leads):
@@ -247,12 +244,11 @@ class LabTab:
         law, numbers = start.law, [name for name in OF_LAW[start.law] if name != "mu"]
         if self.view.level != LEVELS[0] and start.rolling is None:
             numbers.append("slip")
-        ordinary = scene.motions["ordinary"]
-        inputs = [view["inputs"][name] for name in numbers]
+        said_of, ordinary = inputs(), scene.motions["ordinary"]
         headline, why = scene.said
         return {
             "table": scene.table,
-            "rubs": [[name, said["typed"], said["unit"]] for name, said in zip(numbers, inputs, strict=True)] * slides,
+            "rubs": [[name, said["typed"], said["unit"]] for name in numbers for said in (said_of[name],)] * slides,
             "of": {
                 "law": [law, f"{view['law']}: {listed('planes.law')[law]}", f"{view['law']}:"],
                 **{name: [getattr(start, name), self._named(start, name)] for name in inputs_of(law)},
@@ -292,7 +288,7 @@ class LabTab:
     @staticmethod
     def _named(start, name):
         """An input of a start with its value, in words."""
-        said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
+        said, digits = inputs()[name], SLIDERS[name][-1]
         gap = "" if said["unit"] in ("", "°") else " "
         number = f"{getattr(start, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")
         return spelled(f"{said['name']} {number}{gap}{said['unit']}")

@@ -5,7 +5,6 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-import panel_material_ui as pmui
 import param
 
 from app.model.colours import COLOURS
@@ -19,8 +18,9 @@ from app.tabs.lab.figures import IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, We
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import LOOKS, ball_words, run_words, scatter_words, table_words
 from app.text import say, written
-from app.widgets.cards import PLAIN, note, swatch, words
+from app.widgets.cards import note, swatch, words
 from app.widgets.moments import Moments
+from app.widgets.numbers import Numbers, choice
 
 ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
 AUTO, WHOLE = "auto", {"height": "max-content", "max-height": "none"}
@@ -50,15 +50,14 @@ class Research(param.Parameterized):
         super().__init__()
         self._pacer, self._lab, self._runs, self._choose = pacer, lab, runs, choose
         self._made, self._drawn, self._open = {}, {}, False
-        options = {say(f"research.panels.{name}"): name for name in PANELS}
-        self._switch = pmui.RadioButtonGroup(options=options, label="", size="small", margin=(0, 0, 4, 0), sx=PLAIN)
-        self._switch.param.watch(self._chosen, "value")
+        options = {name: say(f"research.panels.{name}") for name in PANELS}
+        self._switch = Numbers([choice("panel", say("research.label"), options)], self._chosen)
         self._places = {
             name: pn.Column(sizing_mode="stretch_width", margin=0, visible=False, styles=WHOLE) for name in PANELS
         }
         self.rolling = Rolling(pacer, runs, lambda: lab.ask(table="ordinary"))
         self._note = words(note(say("research.rolling")), visible=False, margin=(4, 0))
-        self.view = pn.Column(self._switch, self._note, *self._places.values(), controls, sizing_mode="stretch_width",
+        self.view = pn.Column(self._switch.view, self._note, *self._places.values(), controls, sizing_mode="stretch_width",
                               margin=0, stylesheets=[AROUND])  # fmt: skip
         self._makers = {
             "which": self.rolling.plane, "surface": self.rolling.surface, "portraits": self.rolling.portraits,
@@ -87,9 +86,9 @@ class Research(param.Parameterized):
             self._lab.start.settle()
             self._look()
 
-    def _chosen(self, event):
-        if event.new != self.shown:
-            self.panel = event.new
+    def _chosen(self, name, panel, typed):
+        self.panel = panel
+        self._look()
 
     def _look(self):
         """Shows the panel, with all that has happened since it was last shown."""
@@ -97,7 +96,7 @@ class Research(param.Parameterized):
             return
         name = self.shown
         with pn.io.hold():
-            self._switch.value = name
+            self._switch.show({"panel": name}, {})
             self._note.visible = name in ROLLING and self._lab.start.table != "rough"
             if name not in self._made:
                 content, draws = self._makers[name]()

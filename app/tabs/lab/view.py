@@ -3,8 +3,19 @@
 import param
 
 from app.bundle import Bundled
+from app.model.lab.allowed import LIMITS
 from app.state.names import LEVELS
 from app.text import listed, say
+
+
+def capital(words):
+    return words[0].upper() + words[1:]
+
+
+def inputs(language=None):
+    """{input: its words}, as at the head of a control."""
+    known = listed("controls.inputs", language)
+    return {name: known[name] | {"name": capital(known[name]["name"])} for name in LIMITS}
 
 
 class LabView(Bundled):
@@ -17,7 +28,7 @@ class LabView(Bundled):
     also what it conserves, float32 rows as of app.model.keeps. All are empty if there is no such motion.
     """
 
-    SAYS = ("Stage", "Top3D")
+    SAYS = ("Stage", "Top3D", "NumberControls")
     REGIMES = "here"
 
     # JSON, because Panel and Bokeh search each part of a dict again and again, which was a quarter of a move
@@ -57,4 +68,5 @@ class LabView(Bundled):
         more = {name: listed(f"planes.{name}", language) for name in ("law", "landing", "presets")}
         alone = {name: say(f"planes.{key}", language) for name, key in (
             ("stem", "stem.can"), ("caught", "caught"), ("lands", "keys.lands"), ("example", "example"))}  # fmt: skip
-        return super().says(language) | listed("lab_view.view", language) | {"more": more | alone}
+        return super().says(language) | listed("lab_view.view", language) | {
+            "more": more | alone, "inputs": inputs(language)}  # fmt: skip

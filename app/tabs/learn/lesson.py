@@ -34,7 +34,7 @@ class LessonView(Bundled):
     the points of levers.Levers, for each row of the curves.
     """
 
-    SAYS = ("Stage", "Top3D")
+    SAYS = ("Stage", "Top3D", "NumberControls")
     REGIMES = "here"
 
     steps = param.List(default=[], doc="Each step in words; JavaScript inserts the numbers that it computes.")

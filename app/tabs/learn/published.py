@@ -24,7 +24,7 @@ class Steps(Bundled):
 
     @classmethod
     def says(cls, language=None):
-        drawn, decimal = listed("learn.pictures", language), say("lab_view.view.decimal", language)
+        drawn, decimal = listed("learn.pictures", language), say("browser.NumberControls.decimal", language)
         return super().says(language) | {
             "steps": listed("published.view", language),
             "decimal": decimal,

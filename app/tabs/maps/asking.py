@@ -11,7 +11,7 @@ from app.model.maps.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, written
 from app.widgets.cards import beside, field, flow, words
-from app.widgets.controls import typed_number
+from app.widgets.numbers import typed_number
 
 SIDES = "across", "up"
 LIMITS = ("from", "to")

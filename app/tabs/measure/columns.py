@@ -11,7 +11,7 @@ from app.model.measured.names import UNITS
 from app.model.measured.table import taken_as
 from app.text import say, written
 from app.widgets.cards import beside, field, flow, note, words
-from app.widgets.controls import typed_number
+from app.widgets.numbers import typed_number
 
 SELECT = {"size": "small", "margin": 0}
 FIRST = 4  # values

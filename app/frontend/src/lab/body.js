@@ -1,5 +1,5 @@
 // Controls in folds, like those of the start: the top's lengths and ballast, and the friction of the table.
-import { Control } from "./control.js";
+import { Control } from "../controls/number.js";
 import { part } from "./parts.js";
 
 export class Body {

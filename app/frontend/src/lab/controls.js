@@ -1,10 +1,10 @@
 // The start as a person sets it: spin, tilt and friction, each with a slider and a field, and "Spin it". The table and
 // the top itself are in folds.
 import { Body } from "./body.js";
-import { Control } from "./control.js";
+import { Control } from "../controls/number.js";
 import { Launch } from "./launch.js";
 import { Law } from "./law.js";
-import { part, say, written } from "./parts.js";
+import { part, say } from "./parts.js";
 
 export const INPUTS = ["spin", "tilt", "mu"];
 
@@ -39,7 +39,7 @@ export class Controls {
 
   /** @param {any} scene @param {boolean} ahead */
   show(scene, ahead) {
-    const { state, table, before } = scene, { texts } = this;
+    const { state, table, before } = scene;
     this.launch.show(scene);
     this.law.show(state);
     for (const fold of this.folds) fold.show(state, ahead);
@@ -49,8 +49,8 @@ export class Controls {
       const idle = table === "three" ? i > 0 : control.name === "mu" && (table === "rough" || table === "ice");
       control.element.hidden = this.picks.children[i].hidden = idle;
       control.show(state, ahead);
-      const { digits } = control.limits, { unit } = control.said;
-      this.picks.children[i].lastChild.textContent = `${written(state.values[control.name], digits, texts.decimal)}${unit === "°" ? "" : " "}${unit}`;
+      const { unit } = control.said;
+      this.picks.children[i].lastChild.textContent = `${control.print(state.values[control.name])}${unit === "°" ? "" : " "}${unit}`;
       if (state.messages[control.name]) this.pick(control.name);
     }
     if (this.parts.some(({ element }) => element.hidden && element.classList.contains("picked"))) this.pick("spin");

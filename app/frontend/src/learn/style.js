@@ -1,6 +1,6 @@
 // The style of the lesson: the question on top, a large picture of the top, and beside it the possible guesses and the
 // graph.
-import { shared } from "../lab/style.js";
+import { shared } from "../controls/style.js";
 
 const places = `
 .frame:focus { outline: 0; } .frame { --head: calc(48px * var(--type, 1)); scroll-margin-top: var(--head); }

@@ -1,24 +1,38 @@
-// A quantity of the start or of the top: a slider, a field for a number, and below them an error message, or how runs
-// end.
-import { part, read, say, written } from "./parts.js";
+// The number control: a slider, a field for a number, and below them an error message, marks and remarks, or how runs end.
+import { fill, local } from "../data.js";
+import { part, read, say, written } from "../lab/parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, WIDE = 5.6, APART = 16; // px: least width of the strip of ends, a letter below it, a gap between words
 const NEXT = 6; // px between words if one of them is at a mark
 
+// A value between named marks, in words.
+/** @param {number} value @param {[value: number, word: string][]} marks @param {Record<string, any>} texts */
+export function between(value, marks, texts) {
+  const passed = Math.max(marks.filter(([at]) => at <= value).length, 1), [from, to] = [marks[passed - 1], marks[passed]];
+  if (value === from[0]) return from[1];
+  if (!to) return fill(texts.beyond, { mark: from[1] });
+  return fill(texts.between, { percent: Math.round((100 * (value - from[0])) / (to[0] - from[0])), from: from[1], to: to[1] });
+}
+
 export class Control {
   /**
    * @param {string} name
-   * @param {{ name: string, typed: string, unit: string }} said
+   * @param {Said} said
    * @param {Record<string, any>} texts
-   * @param {(name: string, value: any) => void} ask
+   * @param {(name: string, value: any, typed?: boolean) => void} ask
    */
   constructor(name, said, texts, ask) {
     this.name = name;
     this.texts = texts;
     this.said = said;
     this.ask = ask;
+    /** @type {{ low: number, high: number, digits: number | null }} */
     this.limits = { low: 0, high: 1, digits: 0 };
+    /** @type {[value: number, word: string][]} */
+    this.marks = [];
+    this.text = ""; // of the field, as last written
+    this.isApart = false; // whether the field has another number than the slider, for example E and not its share
     this.was = /** @type {HTMLElement[]} */ ([]); // what marks the earlier run
     this.share = this.value = 0; // fraction of the track at the present value; the value last shown while the button is held
     const id = `lab-${name}`;
@@ -27,15 +41,20 @@ export class Control {
       ask(name, Number(this.slider.value));
     } });
     this.number = part("input", {
-      class: "num", inputmode: "decimal", "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
+      type: "text", class: "num", inputmode: "decimal", autocomplete: "off", spellcheck: "false", maxlength: 60, "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
       oninput: () => (this.isTyping = true), onchange: () => this.commit(), onblur: () => this.commit(),
       onkeydown: ({ key }) => {
         if (key === "Enter") this.commit();
+        if (key !== "Escape" || !this.isTyping) return;
+        this.isTyping = false;
+        this.write(this.text);
       },
     });
     this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
     this.below = part("div", { class: "below" });
-    this.element = part("div", { class: "ctl" }, part("label", { for: id }, said.name),
+    const label = part("label", { for: id, title: said.hint }, said.name);
+    if (said.html) label.innerHTML = said.html;
+    this.element = part("div", { class: "ctl" }, label,
       part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.wrong);
   }
 
@@ -44,32 +63,49 @@ export class Control {
     if (!this.isTyping) return;
     this.isTyping = false;
     const value = read(this.number.value);
-    this.ask(this.name, Number.isFinite(value) ? value : this.number.value);
-    if (!Number.isFinite(value)) return;
+    this.ask(this.name, Number.isFinite(value) ? value : this.number.value, true);
+    if (!Number.isFinite(value) || this.isApart) return;
     this.slider.value = String(value);
     this.put(value);
   }
 
   /** @param {number} value @param {string} [text] what was typed, where that cannot be */
   put(value, text) {
-    const { low, high, digits } = this.limits, share = (value - low) / (high - low);
+    const { low, high } = this.limits, share = (value - low) / (high - low);
     this.slider.style.setProperty("--p", `${(100 * Math.min(Math.max(share, 0), 1)).toFixed(2)}%`);
-    this.write(text ?? written(value, digits, this.texts.decimal));
+    if (text !== undefined || !this.isApart) this.write(text ?? this.print(value));
+    this.slider.setAttribute("aria-valuetext", this.speak(value));
     this.share = share;
     this.point();
+  }
+
+  // As its field has it: with its decimals, or else six digits.
+  /** @param {number} value */
+  print(value) {
+    const { digits } = this.limits;
+    return digits === null ? local(String(Number(value.toPrecision(6)))) : written(value, digits, this.texts.decimal);
+  }
+
+  /** @param {number} value */
+  speak(value) {
+    return this.marks.length ? between(value, this.marks, this.texts) : `${this.print(value)} ${this.said.speaks ?? this.said.unit}`;
   }
 
   // Never overwrites what a person is typing. Selected text stays selected, otherwise typing would append to it.
   /** @param {string} text */
   write(text) {
     const { number } = this, { value, selectionStart, selectionEnd } = number;
-    if (this.isTyping || value === text) return;
+    if (this.isTyping) return;
+    this.text = text;
+    if (value === text) return;
     number.value = text;
     if (value && !selectionStart && selectionEnd === value.length && number.matches(":focus")) number.select();
   }
 
   // The mark of the present value; a value beyond the track has none.
   point() {
+    const { low, high } = this.limits;
+    for (const [i, [at]] of this.marks.entries()) this.ticks.children[i].style.left = this.along((at - low) / (high - low));
     if (!this.mark) return;
     this.mark.hidden = this.share < 0 || this.share > 1;
     this.mark.style.left = this.along(this.share);
@@ -80,48 +116,62 @@ export class Control {
 
   /** @param {any} state @param {boolean} ahead whether it has been moved since */
   show(state, ahead) {
-    const [low, high, step, digits] = state.sliders[this.name], message = state.messages[this.name];
+    const [low, high, step, digits] = state.sliders[this.name], message = state.messages[this.name], own = state.fields?.[this.name];
+    this.isApart = own !== undefined;
     this.limits = { low, high, digits };
     Object.assign(this.slider, { min: low, max: high, step });
     const [refused, kept] = [state.refused[this.name], state.values[this.name]];
     if (!ahead) {
       this.slider.value = String(kept);
-      this.put(kept, message && refused !== undefined ? this.typed(refused) : undefined);
-      this.slider.setAttribute("aria-valuetext", `${written(kept, this.limits.digits, this.texts.decimal)} ${this.said.unit}`);
+      this.put(kept, message && refused !== undefined ? this.typed(refused) : this.print(own ?? kept));
     }
     this.number.setAttribute("aria-invalid", String(Boolean(message)));
     this.element.classList.toggle("bad", Boolean(message));
     this.wrong.hidden = !message;
-    if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), this.why(message, state.nearest[this.name], kept));
+    if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), this.why(message, state.nearest[this.name], kept, own));
   }
 
   // The message with its first sentence in bold, and a button for each remedy.
-  /** @param {string} message @param {number | undefined} nearest the nearest allowed value @param {number} kept the last valid one */
-  why(message, nearest, kept) {
+  /** @param {string} message @param {number | undefined} nearest the nearest allowed value @param {number} kept the last valid one @param {number} [own] that of the field */
+  why(message, nearest, kept, own = kept) {
     const [first, ...more] = message.split(/(?<=[.]) /), unit = `${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}`;
-    const way = (says, value, text) => part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, value) },
-      say(this.texts, says, { value: `${text}${unit}` }));
-    return part("span", {}, part("b", {}, first), ` ${more.join(" ")} `,
-      ...(nearest === undefined ? [] : [way(this.texts.take, nearest, this.typed(nearest)), " "]),
-      way(this.texts.back, kept, written(kept, this.limits.digits, this.texts.decimal)));
+    const way = (says, text, take) => part("button", { type: "button", class: "link", onclick: take }, say(this.texts, says, { value: `${text}${unit}` }));
+    const bold = part("b", {}, first), rest = part("span", {}, ` ${more.join(" ")} `);
+    if (this.said.html) [bold.innerHTML, rest.innerHTML] = [first, ` ${more.join(" ")} `];
+    return part("span", {}, bold, rest,
+      ...(nearest === undefined ? [] : [way(this.texts.take, this.typed(nearest), () => this.ask(this.name, nearest, true)), " "]),
+      way(this.texts.back, this.print(own), () => this.ask(this.name, kept)));
   }
 
-  // A remark on the value.
+  // A remark on the value, plain text unless its name is HTML.
   /** @param {string} [said] */
   note(said) {
-    this.below.replaceChildren(...(said ? [part("p", { class: "small" }, said)] : []));
+    if (said === this.noted) return;
+    this.noted = said;
+    const words = part("p", { class: "small" }, said ?? "");
+    if (this.said.html) words.innerHTML = said;
+    this.below.replaceChildren(...(said || this.said.html ? [words] : []));
   }
 
   // Like the text that was typed.
   typed(value) {
-    return typeof value === "number" ? written(value, Number.isInteger(value) ? 0 : this.limits.digits, this.texts.decimal) : String(value);
+    if (typeof value !== "number") return String(value);
+    return Number.isInteger(value) ? written(value, 0, this.texts.decimal) : this.print(value);
+  }
+
+  // Names places on the track.
+  /** @param {[value: number, word: string][]} marks */
+  tick(marks) {
+    this.marks = marks;
+    this.ticks = part("div", { class: "ticks", "aria-hidden": "true" }, ...marks.map(([, word]) => part("span", {}, word)));
+    this.below.before(this.ticks);
   }
 
   // Sets the value at a fraction of the track, rounded to its digits, and returns it.
   /** @param {number} share */
   putShare(share) {
     const { low, high, digits } = this.limits;
-    this.value = Number((low + share * (high - low)).toFixed(digits));
+    this.value = Number((low + share * (high - low)).toFixed(digits ?? 0));
     this.slider.value = String(this.value);
     this.put(this.value);
     return this.value;

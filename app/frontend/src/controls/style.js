@@ -1,0 +1,76 @@
+// The style of everything that a hand sets: tokens for light, dark and large; buttons and choices; number controls. Four
+// font sizes, a grid of 8 px, one blue for what is selected, one colour for each quantity.
+import { onDark, onLight } from "../colours.js";
+import { endsOnDark, endsOnLight } from "../ends.js";
+
+const tokens = `
+.frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
+  --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
+  --accent: ${onLight.accent}; --q-spin: ${onLight.omega}; --q-energy: ${onLight.energy}; --q-energy-wash: ${onLight.energy_wash};
+  ${endsOnLight} --shape: #55606c;
+  container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
+  -webkit-font-smoothing: antialiased; }
+.frame[data-look=dark] { --ground: #0e1318; --floor: #191f25; --ink: #eef2f5; --ink-2: #a9b4bf; --line: #2d363f; --line-2: #75818d;
+  --accent: ${onDark.accent}; --q-spin: ${onDark.omega}; --q-energy: ${onDark.energy}; --q-energy-wash: ${onDark.energy_wash};
+  ${endsOnDark} --shape: #a9b4bf; color-scheme: dark; }
+.frame[data-large] { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --bar: 176px; }
+`;
+
+const basics = `
+* { box-sizing: border-box; }
+[hidden] { display: none !important; }
+h2, p { margin: 0; } h2 { font-size: var(--t-m); font-weight: 600; }
+b { font-weight: 600; }
+.big { font-size: var(--t-l); font-weight: 600; letter-spacing: -.01em; line-height: 1.3; }
+.small { font-size: var(--t-s); color: var(--ink-2); }
+button, select, input { font: inherit; color: inherit; }
+:focus-visible { outline: 3px solid var(--accent); outline-offset: 2px; border-radius: 6px; }
+button { min-height: var(--touch); border: 0; background: none; border-radius: 6px; padding: 0 12px; cursor: pointer; }
+button:hover { background: color-mix(in srgb, var(--ink) 7%, transparent); }
+select { border: 0; background: none; min-height: var(--touch); padding: 0 4px; border-radius: 6px; cursor: pointer; }
+select option { color: var(--ink); background: var(--ground); }
+.primary, .round { background: var(--ink); color: var(--ground); font-weight: 600; }
+.primary { padding: 0 20px; min-height: 40px; white-space: nowrap; }
+.primary:hover, .round:hover { background: color-mix(in srgb, var(--ink) 85%, var(--ground)); }
+.round { width: 48px; height: 48px; padding: 0; border-radius: 50%; display: grid; place-items: center; }
+.round:focus-visible { border-radius: 50%; }
+.outline { padding: 8px 16px; box-shadow: inset 0 0 0 1px var(--line-2); text-align: left; line-height: 1.3; }
+.outline span { display: block; font-size: var(--t-s); color: var(--ink-2); }
+.link { min-height: 28px; padding: 0 2px; text-decoration: underline; text-underline-offset: 3px; text-decoration-color: var(--line-2); font-weight: 600; }
+.titled { display: flex; align-items: center; justify-content: space-between; min-height: 32px; gap: 8px; }
+.seg { display: inline-flex; gap: 2px; }
+.seg button { min-height: calc(var(--touch) - 4px); padding: 0 12px; border-radius: 5px; color: var(--ink-2); white-space: nowrap; }
+.seg [aria-checked=true] { background: var(--ground); color: var(--accent); font-weight: 600; box-shadow: 0 0 0 1.5px var(--accent); }
+.mini { display: flex; gap: 16px; align-items: baseline; }
+.mini button { padding: 0; min-height: max(28px, var(--touch) - 4px); min-width: 28px; color: var(--ink-2); }
+.mini [aria-selected=true] { color: var(--accent); font-weight: 600; box-shadow: 0 2px 0 var(--accent); border-radius: 0; }
+svg { display: block; overflow: visible; }
+svg text { font: 400 var(--t-s) var(--family); fill: var(--ink-2); }
+svg .word { font-weight: 600; fill: var(--ink); }
+svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; stroke-linejoin: round; }
+svg .axis { stroke: var(--line-2); fill: none; } svg .grid { stroke: var(--line); }
+polyline, .rest, .past { fill: none; stroke-linejoin: round; }
+`;
+
+export const numbers = `
+.ctl { display: grid; grid-template-columns: 1fr auto; align-items: baseline; column-gap: 8px; }
+.ctl label { font-weight: 600; }
+.num { width: 72px; border: 0; border-bottom: 1px solid var(--line-2); background: none; padding: 0; height: 24px; border-radius: 0; text-align: right; font-variant-numeric: tabular-nums; }
+.num:focus-visible { outline-offset: 0; }
+.unit { color: var(--ink-2); margin-left: 4px; display: inline-block; min-width: 3ch; }
+.ctl > :is(.ticks, .below, .wrong) { grid-column: 1 / -1; }
+.ctl input[type=range] { grid-column: 1 / -1; -webkit-appearance: none; appearance: none; width: 100%; height: 24px; margin: 0; background: none; cursor: pointer; }
+.ctl input::-webkit-slider-runnable-track { height: 4px; border-radius: 2px; background: linear-gradient(90deg, var(--accent) var(--p, 50%), var(--line-2) var(--p, 50%)); }
+.ctl input::-moz-range-track { height: 4px; border-radius: 2px; background: linear-gradient(90deg, var(--accent) var(--p, 50%), var(--line-2) var(--p, 50%)); }
+.ctl input::-webkit-slider-thumb { -webkit-appearance: none; width: 20px; height: 20px; margin-top: -8px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); }
+.ctl input::-moz-range-thumb { box-sizing: border-box; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); }
+.bad .num { border-bottom: 3px solid var(--ink); font-weight: 600; }
+.wrong { display: flex; gap: 8px; margin-top: 4px; line-height: 1.4; }
+.wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
+`;
+
+// A thumb for a finger, where the page is narrow.
+export const forFingers = `.ctl input[type=range] { height: 44px; margin: -2px 0 -10px; }
+  .ctl input::-webkit-slider-thumb { width: 28px; height: 28px; margin-top: -12px; border-width: 6px; }`;
+
+export const shared = tokens + basics;
