@@ -9,7 +9,6 @@ from app.model.inputs import INPUTS
 from app.model.regimes import NAMES
 from app.model.region import PAPER
 from app.text import listed, say, written
-from app.widgets.cards import boxed
 from app.widgets.numbers import Numbers, choice, heading, number, tidy, words
 from app.widgets.typeset import typeset
 from tippe_core import Top
@@ -94,7 +93,7 @@ class Controls(param.Parameterized):
 
     def card(self):
         """The inputs of the motion and the friction; those of the top; and what Figs. 5 and 6 show."""
-        return boxed(self.numbers.view, height="max-content")
+        return self.numbers.view
 
     @staticmethod
     def _parts():

@@ -29,7 +29,7 @@ interface Model {
 interface Rendering<M extends Model> {
   model: M;
   el: HTMLElement;
-  view: { tippe?: { dispose(): void; hold?(held: boolean): void } };
+  view: { tippe?: { dispose(): void; hold?(held: boolean): void; look?(): void } };
 }
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
@@ -210,10 +210,6 @@ interface MomentsModel extends Model {
   rows: [t: number, when: string, word: string, more: string][];
 }
 
-interface NearModel extends Model {
-  near: boolean;
-}
-
 interface PaintedModel extends Model {
   sent: number;
   painted: number;
@@ -245,9 +241,14 @@ type Shown = Tieline & { K_R: number; steady: number };
 type Tieline = { K_J: number; inner: number; outer: number };
 
 // app/tabs/lab/lab.py says what each contains.
-type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves" | "keeps"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves" | "keeps"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & Record<Part3D, boolean> & {
   a: number;
   seconds: number;
+  level: string;
+  time: number;
+  playing: boolean;
+  speed: number;
+  camera: number[];
   asked: [count: number, name: string, value: any] | [];
 };
 

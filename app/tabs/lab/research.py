@@ -57,8 +57,8 @@ class Research(param.Parameterized):
         }
         self.rolling = Rolling(pacer, runs, lambda: lab.ask(table="ordinary"))
         self._note = words(note(say("research.rolling")), visible=False, margin=(4, 0))
-        self.view = pn.Column(self._switch.view, self._note, *self._places.values(), controls, sizing_mode="stretch_width",
-                              margin=0, stylesheets=[AROUND])  # fmt: skip
+        parts = self._switch.view, self._note, *self._places.values(), controls
+        self.view = pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[AROUND])
         self._makers = {
             "which": self.rolling.plane, "surface": self.rolling.surface, "portraits": self.rolling.portraits,
             "time": self._make_times, "values": self._make_values, "ends": self._make_ends,

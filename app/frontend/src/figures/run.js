@@ -24,7 +24,7 @@ function showWell({ wells, steady, none, range }, which) {
 }
 
 // The lines at the present time; the time axis turns a page where they leave it.
-/** @param {{ spans: BokehModel[], path: Source, range: BokehModel, clock: string }} given path: its tags have the unit of time */
+/** @param {{ spans: BokehModel[], path: Source, range: BokehModel & { start: number, end: number }, clock: string }} given path: its tags have the unit of time */
 export function followSpans({ spans, path, range, clock }) {
   if (isFollowed(path)) return;
   followClock((t) => {

@@ -1,6 +1,6 @@
 // The style of Fig. 6, with the tokens of the Lab.
 import { onDark, onLight } from "../colours.js";
-import { shared } from "../lab/style.js";
+import { shared } from "../controls/style.js";
 
 const own = `
 :host { display: block; }
