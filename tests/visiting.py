@@ -64,11 +64,8 @@ part => new Promise((done) => {
 """
 
 
-# Whether the last card that is created after the page has loaded exists.
-WHOLE = """
-() => window.Bokeh?.documents?.[0]?.is_idle
-  && [...Bokeh.documents[0]._all_models.values()].some((m) => m.name == "track")
-"""
+# Whether all that the level "Research" opens is there.
+WHOLE = "() => window.Bokeh?.documents?.[0]?.is_idle && window.__tippe?.plane?.selected"
 
 
 # Whether the top is drawn.
@@ -76,7 +73,7 @@ DRAWN = "window.__tippe?.top3d?.pictures > 0"
 
 
 def of_roll(url):
-    """The address of Roll if the address has no query, otherwise the address itself."""
+    """The address of the paper's rolling top if the address has no query, otherwise the address itself."""
     return url if "?" in url else f"{url}?tab=roll"
 
 
@@ -99,7 +96,7 @@ def go_to(page, room):
         if name is None:
             continue
         # the row below is that of the room before until the server has answered
-        where = page.locator(".rooms") if name == ROOMS[room][-1] else page
+        where = page.locator(".rooms, .stage .switch") if name == ROOMS[room][-1] else page
         button = where.get_by_role(role, name=name, exact=True).locator("visible=true").first
         button.wait_for()
         if not is_chosen(button):
@@ -140,7 +137,7 @@ class Visit:
     """An open page, with its requests, its errors, and its websocket frames."""
 
     def __init__(self, page, url, whole=True, near=False):
-        """An address without a query opens Roll. whole: wait until the whole tab is there. near: draw only what is
+        """An address without a query opens the paper's rolling top. whole: wait until the whole tab is there. near: draw only what is
         nearly visible, as usual; otherwise everything is drawn, so that tests can read it."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)

@@ -18,6 +18,7 @@ import { coalesce, debounce, float32 } from "../data.js";
 import { Press } from "../widgets/press.js";
 
 const TELL_MS = 80; // ms without a change of the time after which Python is told of it
+const SAME = 1e-9; // s
 const PATIENCE = 100; // ms that the old picture may be beside the new start without a remark
 
 class Lab {
@@ -102,8 +103,10 @@ class Lab {
   tell = debounce(() => {
     const { model, time } = this, t = time.t / time.unit;
     if (!this.scene || time.held) return;
+    this.isTelling = true;
     if (model.playing !== time.playing) model.playing = time.playing;
     if (!time.playing && model.time !== t) model.time = t;
+    this.isTelling = false;
   }, TELL_MS);
 
   // Sets how much is open, what is shown on the stage, and how fast it plays.
@@ -176,6 +179,14 @@ class Lab {
     this.at();
   }
 
+  // Python sets whether it plays, and when.
+  hear() {
+    const { model, time } = this, t = model.time * time.unit;
+    if (!this.isBegun || this.isTelling) return;
+    if (model.playing !== time.playing) time.play(model.playing);
+    if (!model.playing && Math.abs(t - time.t) > SAME) time.seek(t);
+  }
+
   // A link may be of one moment.
   begin() {
     const { model, time } = this;
@@ -209,6 +220,7 @@ export function renderLab({ model, el, view }) {
     model.on(name, lab.show);
   }
   for (const name of ["level", "speed", ...SHOWS]) model.on(name, lab.showLevel);
+  for (const name of ["time", "playing"]) model.on(name, () => lab.hear());
   window.addEventListener("tippe:look", lab.look);
   window.addEventListener("tippe:command", lab.tells);
   lab.showLevel();
