@@ -1,8 +1,7 @@
 """Dragging in the pictures, in Chromium: what is dragged follows, and everything else with it."""
 
-import numpy as np
 import pytest
-from visiting import COLUMN, IN_SIGHT, PIXEL, WHOLE, Visit, wait
+from visiting import COLUMN, IN_SIGHT, PIXEL, WHOLE, Visit, entry, open_panel, wait
 
 from app.model.region import least_energy
 from app.model.scene import solve
@@ -11,8 +10,7 @@ from tippe_core import Constants, Top, roll, tielines, turning_points
 pytestmark = pytest.mark.served
 
 TOP = Top.paper()
-FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # indices among the controls
-STATE_FIELDS = {"theta": 0, "theta_dot": 1, "omega2": 2, "omega3": 3}
+STATE = ("theta", "theta_dot", "omega2", "omega3")
 
 # The motion on display, as Fig. 6 shows it.
 SELECTED = "() => window.__tippe?.plane?.selected"
@@ -20,6 +18,12 @@ SELECTED = "() => window.__tippe?.plane?.selected"
 
 def selected(visit):
     return visit.page.evaluate(SELECTED)
+
+
+def motion_of(visit, shown=None):
+    """What determines the motion on display."""
+    shown = shown or selected(visit)
+    return {name: shown[name] for name in ("K_J", "K_R", "inner", "outer")}
 
 
 def until_selected(visit, **values):
@@ -39,22 +43,13 @@ def rests(visit):
     return len(visit.sent) == before
 
 
-def field(visit, place):
-    """The number in a visible field of the controls."""
-    text = visit.page.locator("input[type=text]:visible").nth(place).input_value()
-    return float(text.replace("−", "-"))
+def field(visit, name):
+    """The number in the field of an input."""
+    return float(entry(visit.page, name).input_value().replace("−", "-"))
 
 
-def until_field(visit, place, value):
-    visit.page.wait_for_function(
-        """([i, value]) => {
-            const seen = (e) => e.matches("input[type=text]") && e.offsetParent
-            const find = (root) => [...root.querySelectorAll("*")].flatMap(
-              (e) => [...(seen(e) ? [e] : []), ...(e.shadowRoot ? find(e.shadowRoot) : [])])
-            return Math.abs(Number(find(document)[i].value.replace("−", "-")) - value) < 1e-4
-        }""",
-        arg=[place, value],
-    )
+def until_field(visit, name, value):
+    wait(visit.page, lambda: abs(field(visit, name) - value) < 1e-4)
 
 
 def show_state(visit):
@@ -62,15 +57,14 @@ def show_state(visit):
     visit.page.locator(":text('its rate'):visible").wait_for()
 
 
-def type_in(visit, place, text):
-    entry = visit.page.locator("input[type=text]:visible").nth(place)
-    entry.fill(text)
-    entry.press("Enter")
+def type_in(visit, name, text):
+    entry(visit.page, name).fill(text)
+    entry(visit.page, name).press("Enter")
 
 
 def top_stands_on(visit, state_or_constants, **options):
     """Whether the first frame of the 3-D top belongs to this motion."""
-    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
+    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek:lab', {detail: {t: 0}}))")
     q = roll(TOP, state_or_constants, [0.0], **options).quaternion[0]
     visit.page.wait_for_function(
         "q => Math.abs(__tippe.top3d.quaternion.reduce((sum, x, i) => sum + x * q[i], 0)) > 1 - 1e-6", arg=q.tolist()
@@ -80,7 +74,7 @@ def top_stands_on(visit, state_or_constants, **options):
 def stop_at_the_start(visit):
     """Goes to the start: there the bead is at the inner end, where it does not disturb the tests."""
     visit.pause()
-    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
+    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek:lab', {detail: {t: 0}}))")
     visit.page.wait_for_function("__tippe.top3d.index == 0")
 
 
@@ -126,7 +120,7 @@ def test_an_end_of_the_tieline_is_the_energy(visit):
     visit.page.locator(".tippe-readout:visible", has_text="It would slip on the way").wait_for()
     visit.page.mouse.up()
     E = float(least_energy(after["outer"], TOP, 7.0, 10.0))
-    until_field(visit, FIELDS["energy"], E)
+    until_field(visit, "energy", E)
     assert turning_points(TOP, Constants(7.0, 10.0, E))[0] == pytest.approx([after["inner"], after["outer"]], abs=1e-9)
     top_stands_on(visit, Constants(7.0, 10.0, E))
 
@@ -171,7 +165,7 @@ def test_the_tieline_itself_is_K_J(visit):
     visit.drag(visit.pixel("plane", 0.62, 7.0), (x, to))
     after = until_selected(visit, K_J=5.5 - (to - y) / (unit - y))
     visit.page.mouse.up()
-    until_field(visit, FIELDS["K_J"], after["K_J"])
+    until_field(visit, "K_J", after["K_J"])
 
 
 def test_a_click_on_another_tieline_is_that_motion_at_its_limit(visit):
@@ -180,7 +174,7 @@ def test_a_click_on_another_tieline_is_that_motion_at_its_limit(visit):
     after = until_selected(visit, K_J=3.0, inner=0.9804, outer=1.3242)
     assert after["K_J"] == 3.0 and after["worst"] == 0
     E = float(tielines(TOP, [3.0], 10.0, 0.5).E[0])
-    until_field(visit, FIELDS["energy"], float(f"{E:.6g}"))
+    until_field(visit, "energy", float(f"{E:.6g}"))
     top_stands_on(visit, Constants(3.0, 10.0, E))
 
 
@@ -215,65 +209,43 @@ def test_the_bead_moves_the_clock_and_nothing_else(visit):
     visit.page.mouse.up()
 
 
-def test_the_axis_of_a_paused_top_is_the_initial_tilt(visit):
-    show_state(visit)
-    visit.pause()
-    handle = visit.page.get_by_role("slider", name="Tilt of the axis")
-    box = handle.bounding_box()
-    tilt = float(handle.get_attribute("aria-valuenow"))
-    start = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    visit.drag(start, (start[0] - 30, start[1] + 30))
-    visit.page.wait_for_function("__tippe.top3d.t == 0")
-    visit.page.mouse.up()
-    handle.press("ArrowDown")
-    visit.page.wait_for_function("Bokeh.documents[0].is_idle && __tippe.top3d.t == 0")
-    # the handle shows the tilt of the field and of the start of the curve
-    visit.page.wait_for_function(
-        """([column, handle, before]) => {
-            const shown = Number(handle.getAttribute("aria-valuenow"))
-            return shown != before && Math.abs(eval(column)(["theta", 0, "theta"])[0] - shown) < 6e-4
-        }""",
-        arg=[COLUMN, handle.element_handle(), tilt],
-    )
-    theta = STATE_FIELDS["theta"]
-    wait(visit.page, lambda: field(visit, theta) == float(f"{visit.column('theta', 0, 'theta')[0]:.6g}"))
-
-
 def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(visit):
     visit.pause()
     show_state(visit)
     for name, text in {"theta": "0.6", "theta_dot": "1.5", "omega2": "−2", "omega3": "9"}.items():
-        type_in(visit, STATE_FIELDS[name], text)
-        until_field(visit, STATE_FIELDS[name], float(text.replace("−", "-")))
+        type_in(visit, name, text)
+        until_field(visit, name, float(text.replace("−", "-")))
     constants = Constants.from_state(TOP, 0.6, 1.5, -2.0, 9.0)
-    visit.until_column("constants", 0, "K_J", constants.K_J)
+    before = until_selected(visit, K_J=float(constants.K_J), K_R=float(constants.K_R))
     visit.page.get_by_text(f"{constants.K_J:.4g}".replace("-", "−")).first.wait_for()
-    before = visit.column("theta", 0, "theta")
     visit.page.get_by_role("radio", name="Constants", exact=True).click()
     visit.page.get_by_role("slider", name="Routh’s constant").wait_for()
     for name in ("K_J", "K_R"):
-        until_field(visit, FIELDS[name], float(f"{getattr(constants, name):.6g}"))
-    until_field(visit, FIELDS["energy"], float(f"{constants.E:.6g}"))
+        until_field(visit, name, float(f"{getattr(constants, name):.6g}"))
+    until_field(visit, "energy", float(f"{constants.E:.6g}"))
     show_state(visit)
-    assert [field(visit, place) for place in STATE_FIELDS.values()] == [0.6, 1.5, -2.0, 9.0]
-    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+    assert [field(visit, place) for place in STATE] == [0.6, 1.5, -2.0, 9.0]
+    assert motion_of(visit) == motion_of(visit, before)
     type_in(visit, STATE_FIELDS["theta"], "4")
     alert = visit.page.locator("[role=alert]:visible")
     alert.wait_for()
     assert "θ" in alert.inner_text()
-    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+    assert motion_of(visit) == motion_of(visit, before)
 
 
 def test_the_floor_of_fig_5_can_be_pulled_and_says_why_not(visit):
     visit.pause()
+    before = field(visit, "energy")
+    open_panel(visit.page, "Surface")
     visit.page.locator("canvas[aria-label^='Figure 5']").evaluate(IN_SIGHT)
-    visit.page.wait_for_function(f"() => __tippe.surface3d.selected === ({SELECTED})().K_J")
+    visit.page.wait_for_function("() => __tippe.surface3d?.selected === 7")
     _, outer = visit.page.evaluate("__tippe.surface3d.grips")
     visit.drag(outer, (outer[0] + 25, outer[1] + 4))
-    visit.page.wait_for_function(f"() => ({SELECTED})().outer > 0.8")
-    assert selected(visit)["K_J"] == 7.0
+    wait(visit.page, lambda: field(visit, "energy") > before + 1)
+    assert field(visit, "K_J") == 7.0
     visit.page.wait_for_function("__tippe.surface3d.readout.includes('on the way')")
     visit.page.mouse.up()
+    open_panel(visit.page, "Which motions roll")
 
 
 PORTRAITS = {"phase portrait": "phase", "f(θ)": "f", "effective potential": "potential", "unrolled": "ring",
@@ -282,8 +254,9 @@ PORTRAITS = {"phase portrait": "phase", "f(θ)": "f", "effective potential": "po
 
 def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(visit):
     visit.pause()
+    open_panel(visit.page, "Portraits")
     for name, figure in PORTRAITS.items():
-        visit.page.get_by_role("button", name=name).click()
+        visit.page.get_by_role("radio", name=name, exact=True).click()
         visit.page.wait_for_function(
             """name => {
                 const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers)

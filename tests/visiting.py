@@ -6,6 +6,8 @@ import socket
 import numpy as np
 import patience
 
+from app.text import listed
+
 PATIENCE = 1000 * patience.PATIENCE  # ms
 FLAGS = [
     "--no-sandbox",
@@ -111,6 +113,16 @@ def is_seen(page, room):
 
 def is_chosen(button):
     return "true" in (button.get_attribute("aria-selected"), button.get_attribute("aria-checked"))
+
+
+def entry(page, name):
+    """The field of an input at the level "Research"."""
+    return page.get_by_label(listed("controls.inputs", "en")[name]["typed"], exact=True).locator("visible=true")
+
+
+def open_panel(page, name):
+    """Shows a panel beside the stage."""
+    page.get_by_role("radio", name=name, exact=True).click()
 
 
 def texts(page):
