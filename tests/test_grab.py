@@ -289,7 +289,7 @@ PORTRAITS = {"phase portrait": "phase", "f(θ)": "f", "effective potential": "po
 def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(visit):
     visit.pause()
     for name, figure in PORTRAITS.items():
-        visit.page.get_by_role("button", name=name).click()
+        visit.page.get_by_role("radio", name=name).click()
         visit.page.wait_for_function(
             """name => {
                 const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers)

@@ -8,7 +8,8 @@ from app.model.planes.planes import PRESETS
 from app.model.setup import TABLES
 from app.tabs.planes.words import degrees, stem_words
 from app.text import listed, say
-from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, note, on_click, progress, words
+from app.widgets.cards import BUTTON, alert, card, flow, note, on_click, progress, words
+from app.widgets.choice import Choice
 from app.widgets.controls import control, track
 from app.widgets.numbers import Numbers
 from app.widgets.typeset import typeset
@@ -76,9 +77,7 @@ class StartCard:
 
     def _switch(self, name, value):
         options = {says: value for value, says in listed(f"planes.{name}").items()}
-        buttons = pmui.RadioButtonGroup(value=value, label="", size="small", sx=PLAIN, options=options,
-                                        margin=(2, 14, 6, 16))  # fmt: skip
-        return Wish(buttons, name, self._ask)
+        return Wish(Choice(options, value, margin=(2, 14, 6, 16)), name, self._ask)
 
     def _presets(self):
         buttons = []

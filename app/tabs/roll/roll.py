@@ -3,7 +3,6 @@
 from functools import partial
 
 import panel as pn
-import panel_material_ui as pmui
 
 from app.borrowed import at_once
 from app.model.colours import COLOURS
@@ -11,7 +10,8 @@ from app.model.hands import held, pulled
 from app.model.playing import together
 from app.state import asked
 from app.text import say
-from app.widgets.cards import PLAIN, TALL, WIDE, card, first, framed, later, staged, words
+from app.widgets.cards import TALL, WIDE, card, first, framed, later, staged, words
+from app.widgets.choice import Choice
 from app.widgets.controls import named
 from app.widgets.near import WhenNear
 from app.widgets.plane_card import PlaneCard
@@ -73,14 +73,8 @@ class Switch:
         self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
         self._says = said(styles={"min-height": "2.8em"})
         self.view = card(title)
-        self._switch = pmui.RadioButtonGroup(
-            options={say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)},
-            value=0,
-            label="",
-            size="small",
-            margin=(6, 0, 2, 0),
-            sx=PLAIN,
-        )
+        titles = {say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)}
+        self._switch = Choice(titles, 0, margin=(6, 0, 2, 0))
         self._switch.param.watch(lambda event: soon(partial(self._look, event.new)), "value")
 
     def make(self):
