@@ -122,7 +122,7 @@ def a_file_far_too_large_stays_where_it_is(bench, path):
 
 
 def a_hole_and_a_disc_are_chosen_and_dragged_and_are_in_the_link(page):
-    page.get_by_role("button", name="both", exact=True).click()
+    page.get_by_role("radio", name="both", exact=True).click()
     page.get_by_text("The disc is of steel.").locator("visible=true").wait_for()
     page.wait_for_function("Bokeh.documents[0].is_idle")
     first = load_top(saved(page))
@@ -134,7 +134,7 @@ def a_hole_and_a_disc_are_chosen_and_dragged_and_are_in_the_link(page):
     assert top.hole == pytest.approx(0.012, abs=3e-4) and (top.depth, top.disc) == (first.depth, first.disc)
     assert top.density == pytest.approx(TruncatedSphere.paper().density, rel=1e-9)
     assert Body.value(parse_qs(page.evaluate("location.search")[1:])["body"][0]) == top
-    page.get_by_role("button", name="solid", exact=True).click()
+    page.get_by_role("radio", name="solid", exact=True).click()
     expect(page.get_by_text("The disc is of steel.").locator("visible=true")).to_have_count(0)
 
 

@@ -7,6 +7,7 @@ from PIL import Image
 
 from app.bundle import Bundled, pack
 from app.share.parts import Photo
+from app.widgets.choice import Choice
 from app.widgets.controls import control, track
 from app.widgets.numbers import Numbers
 from app.widgets.surface3d import Surface3D
@@ -218,6 +219,23 @@ def test_a_typed_number_is_sent_as_typed_and_escape_brings_back_what_was(alone):
     field.press("Enter")
     found.until(lambda: asked[1:] == [("energy", -2.5, True)])  # and nothing from Python came back as a request
     assert slider.input_value() == "0.5"  # its slider has the share between the marks, the field E
+
+
+def test_a_choice_is_of_its_values_by_hand_and_from_python(alone):
+    found, choice = alone(), Choice({"one": 0, "two": 1, "three": 2}, 0, "Which")
+    page = found.show(choice)
+    one, two, three = (page.get_by_role("radio", name=name) for name in choice.options)
+    two.click()
+    found.until(lambda: choice.value == 1)
+    two.press("ArrowRight")
+    found.until(lambda: choice.value == 2)
+    assert three.get_attribute("aria-checked") == "true" and three.evaluate("e => e.getRootNode().activeElement === e")
+    found.put(choice, value=0)
+    page.wait_for_function("e => e.ariaChecked === 'true'", arg=one.element_handle())
+    assert three.get_attribute("aria-checked") == "false" and [news for *_, news in found.told] == [1, 2]
+    found.put(choice, options={"four": 0, "five": 7})
+    page.get_by_role("radio", name="five").click()
+    found.until(lambda: choice.value == 7)
 
 
 NO_WEBGL = """const real = HTMLCanvasElement.prototype.getContext

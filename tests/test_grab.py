@@ -226,7 +226,7 @@ def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(v
     show_state(visit)
     assert [field(visit, place) for place in STATE] == [0.6, 1.5, -2.0, 9.0]
     assert motion_of(visit) == motion_of(visit, before)
-    type_in(visit, STATE_FIELDS["theta"], "4")
+    type_in(visit, "theta", "4")
     alert = visit.page.locator("[role=alert]:visible")
     alert.wait_for()
     assert "θ" in alert.inner_text()

@@ -26,7 +26,7 @@ COLUMN = f"""
 
 def field(page, name):
     """The number field of a visible control."""
-    said = {"spin": "spin, in revolutions per second", "tilt": "tilt, in degrees"}
+    said = {"spin": "Spin, in turns a second", "tilt": "Tilt, in degrees"}
     return page.get_by_role("textbox", name=said[name], exact=True).locator("visible=true")
 
 
@@ -36,7 +36,7 @@ def put(page, name, value):
 
 
 def choose(page, name):
-    page.get_by_role("button", name=name, exact=True).click()
+    page.get_by_role("button", name=name, exact=True).or_(page.get_by_role("radio", name=name, exact=True)).click()
 
 
 def says(page, words):

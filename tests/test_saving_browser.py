@@ -105,7 +105,7 @@ def test_the_files_of_each_table_are_its_run_also_when_all_three_are_shown(serve
         choose(page, "All three")
         share(page)
         for table in TABLES.values():
-            page.get_by_role("button", name="ice" if table == "ice" else f"{table} table", exact=True).click()
+            page.get_by_role("radio", name="ice" if table == "ice" else f"{table} table", exact=True).click()
             page.get_by_text(f"This motion, {table}").locator("visible=true").wait_for()
             run = read(saved(page, "CSV", f"tippe-top-{table}.csv"))
             assert np.allclose(run["theta"][:400], alone[table]["theta"][:400], atol=1e-9)

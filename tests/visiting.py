@@ -149,8 +149,8 @@ class Visit:
     """An open page, with its requests, its errors, and its websocket frames."""
 
     def __init__(self, page, url, whole=True, near=False):
-        """An address without a query opens the paper's rolling top. whole: wait until the whole tab is there. near: draw only what is
-        nearly visible, as usual; otherwise everything is drawn, so that tests can read it."""
+        """An address without a query opens the paper's rolling top. whole: wait until the whole tab is there. near:
+        draw only what is nearly visible, as usual; otherwise everything is drawn, so that tests can read it."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)
         page.on("request", lambda request: self.requests.append(request.url))

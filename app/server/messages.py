@@ -118,6 +118,8 @@ PLAIN = Value("plain and bounded", _plain)
 COLUMNS = Value("a few numbers or words in each of its columns", _is_column)
 # What depends on the model as it is now.
 OPTION = Value("one of its options", _is_option)
+CHOSEN = Value("one of its values", lambda value, of: any(type(value) is type(each) and value == each
+                                                          for each in of.options.values()))  # fmt: skip
 TYPED = Value("text as long as its field takes", lambda value, of: text(of.max_length or LONGEST).fits(value, of))
 ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, of.start, of.end))
 
@@ -160,7 +162,6 @@ CHANGES = {
     "MessageState": {},  # Panel's, of the page's notifications
     "Page": {"dark_theme": FLAG},
     "RadioBoxGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
-    "RadioButtonGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
     "RangeSlider": dict.fromkeys(("value", "value_throttled"), row(ON_SLIDER, ON_SLIDER)),
     "Select": {"value": OPTION | NONE, "dropdown_open": FLAG, "filter_str": TEXT},
     "Switch": {"value": FLAG},
@@ -168,6 +169,7 @@ CHANGES = {
     # ours
     "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT,
                 "visited": row(COUNT, SHORT)},
+    "Choice": {"value": CHOSEN},
     "Connection": {},
     "Copy": {},
     "Download": {"clicks": COUNT},

@@ -9,7 +9,8 @@ from app.share.parts import Paper, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.share.saved_runs import Shown
 from app.text import listed, say
-from app.widgets.cards import PLAIN, px, words
+from app.widgets.cards import px, words
+from app.widgets.choice import Choice
 from app.widgets.copy import Copy
 from app.widgets.download import Download
 from tippe_core import BareSphere
@@ -60,8 +61,7 @@ class Files:
         self._runs, self._playing, self._body = runs, playing, body
         self._scene, self._shown, self._link = None, {}, ""
         tables = listed("share.tables")
-        self._table = pmui.RadioButtonGroup(options={tables[name]: name for name in tables}, value=next(iter(tables)),
-                                            label="", size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
+        self._table = Choice({tables[name]: name for name in tables}, next(iter(tables)), margin=(4, 0))
         self._table.param.watch(lambda event: self._name(), "value")
         self._of = words("", margin=(4, 0))
         self._photo = Photo(margin=0, none=say("share.no_top"))
@@ -100,8 +100,7 @@ class Files:
     def _figures(self):
         shown = listed("share.python")
         codes = {shown[name]: name for name in programs.PYTHON}
-        self._which = pmui.RadioButtonGroup(options=codes, value=next(iter(programs.PYTHON)), label="",
-                                            size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
+        self._which = Choice(codes, next(iter(programs.PYTHON)), margin=(4, 0))
         self._which.param.watch(lambda event: self._show_python(), "value")
         prints = [
             _row(_says(say(f"prints.figures.{name}")), *(

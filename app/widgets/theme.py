@@ -15,11 +15,6 @@ THEME = {
     }
     | widgets()
     | {
-        "MuiToggleButtonGroup": {
-            "styleOverrides": {
-                "root": {"flexWrap": "wrap", "& .MuiToggleButton-root": {"width": "auto", "flex": "1 1 auto"}}
-            }
-        },
         # as plain as the background, on the page on which a student votes
         "MuiAppBar": {
             "styleOverrides": {

@@ -1,3 +1,4 @@
+import { renderChoice } from "./controls/choice.js";
 import { renderNumberControls } from "./controls/group.js";
 import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
@@ -34,6 +35,7 @@ offerCallbacks();
 // Panel finds a component by the name of its Python class.
 export default {
   Address: { render: renderAddress },
+  Choice: { render: renderChoice },
   Connection: { render: renderConnection },
   Copy: { render: renderCopy },
   Download: { render: renderDownload },

@@ -90,6 +90,12 @@ interface PlaneModel extends Model {
 
 // The words of a number control: its name, the name of its field, its unit; in HTML, on hover and as it is read aloud.
 type Said = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string };
+interface ChoiceModel extends Model {
+  label: string;
+  options: Record<string, string | number>;
+  value: string | number;
+}
+
 interface NumberControlsModel extends Model {
   parts: string;
   state: string;

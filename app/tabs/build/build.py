@@ -15,14 +15,14 @@ from app.tabs.build.fields import grid, symbol
 from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
-from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, words
+from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
+from app.widgets.choice import Choice
 from app.widgets.numbers import Numbers, number, tidy, typed_number
 from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
 SAYS = "calc(55px * var(--type, 1))"  # room for three lines about the source of a preset
 NARROW = {"max-width": "max(326px, min(100%, 100vh - 300px))"}  # so that the results below the section are in sight
-IN_A_ROW = "fieldset { flex-direction: row !important; align-items: center; gap: 10px }"
 OWN = ""  # because a select cannot show that nothing is chosen
 
 
@@ -96,10 +96,7 @@ class Inside:
     def __init__(self, choose):
         self._silent = False
         options = {says: kind for kind, says in listed("build.inside").items()}
-        self.switch = pmui.RadioButtonGroup(
-            label=say("build.bench.inside"), options=options, value="solid", size="small", margin=0, sx=PLAIN,
-            stylesheets=[IN_A_ROW]
-        )  # fmt: skip
+        self.switch = Choice(options, "solid", say("build.bench.inside"))
         self.switch.param.watch(lambda event: None if self._silent else choose(event.new), "value")
         self.steel = words(note(say("build.bench.steel")), sizing_mode=None)
         self.view = pn.Column(flow(self.switch, self.steel), sizing_mode="stretch_width", margin=0)

@@ -14,7 +14,8 @@ from app.model.colours import FAINT, INK
 from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
-from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, words
+from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, progress, words
+from app.widgets.choice import Choice
 from app.widgets.numbers import typed_number
 from app.widgets.plots import draw, plain
 from tippe_core import TopError, TruncatedSphere
@@ -62,8 +63,7 @@ class Compare:
     @staticmethod
     def _buttons(table):
         options = {says: value for value, says in listed(f"family.{table}").items()}
-        return pmui.RadioButtonGroup(label="", options=options, value=next(iter(options.values())), size="small",
-                                     margin=0, sx=PLAIN)  # fmt: skip
+        return Choice(options, next(iter(options.values())))
 
     @property
     def map_view(self):

@@ -13,14 +13,15 @@ from app.model.lab.nudged import hits, nudged
 from app.model.regimes import COLOUR, NAMES
 from app.model.runs import LATER, Run, Stopped
 from app.model.setup import TABLES
+from app.state import asked
 from app.state.names import PANELS
 from app.tabs.lab.figures import IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import LOOKS, ball_words, run_words, scatter_words, table_words
 from app.text import say, written
 from app.widgets.cards import note, swatch, words
+from app.widgets.choice import Choice
 from app.widgets.moments import Moments
-from app.widgets.numbers import Numbers, choice
 
 ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
 AUTO, WHOLE = "auto", {"height": "max-content", "max-height": "none"}
@@ -50,14 +51,14 @@ class Research(param.Parameterized):
         super().__init__()
         self._pacer, self._lab, self._runs, self._choose = pacer, lab, runs, choose
         self._made, self._drawn, self._open = {}, {}, False
-        options = {name: say(f"research.panels.{name}") for name in PANELS}
-        self._switch = Numbers([choice("panel", say("research.label"), options)], self._chosen)
+        self._switch = Choice({say(f"research.panels.{name}"): name for name in PANELS}, PANELS[0], margin=(0, 0, 4, 0))
+        self._switch.param.watch(self._chosen, "value")
         self._places = {
             name: pn.Column(sizing_mode="stretch_width", margin=0, visible=False, styles=WHOLE) for name in PANELS
         }
         self.rolling = Rolling(pacer, runs, lambda: lab.ask(table="ordinary"))
         self._note = words(note(say("research.rolling")), visible=False, margin=(4, 0))
-        parts = self._switch.view, self._note, *self._places.values(), controls
+        parts = self._switch, self._note, *self._places.values(), controls
         self.view = pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[AROUND])
         self._makers = {
             "which": self.rolling.plane, "surface": self.rolling.surface, "portraits": self.rolling.portraits,
@@ -86,9 +87,11 @@ class Research(param.Parameterized):
             self._lab.start.settle()
             self._look()
 
-    def _chosen(self, name, panel, typed):
-        self.panel = panel
-        self._look()
+    def _chosen(self, event):
+        if event.new not in PANELS:
+            raise asked.Unasked(event.new)
+        if event.new != self.shown:
+            self.panel = event.new
 
     def _look(self):
         """Shows the panel, with all that has happened since it was last shown."""
@@ -96,7 +99,7 @@ class Research(param.Parameterized):
             return
         name = self.shown
         with pn.io.hold():
-            self._switch.show({"panel": name}, {})
+            self._switch.value = name
             self._note.visible = name in ROLLING and self._lab.start.table != "rough"
             if name not in self._made:
                 content, draws = self._makers[name]()

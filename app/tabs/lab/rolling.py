@@ -9,8 +9,8 @@ from app.model.hands import pulled
 from app.state import asked
 from app.text import say
 from app.widgets.cards import words
+from app.widgets.choice import Choice
 from app.widgets.controls import named
-from app.widgets.numbers import Numbers, choice
 from app.widgets.plane_card import PlaneCard
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.said import said
@@ -38,11 +38,9 @@ class Switch:
         self._kinds, self._made, self._scene = kinds, {}, None
         self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
         self._says = said(styles={"min-height": "2.8em"})
-        options = {i: say(f"roll.portraits.{kind.name}.title") for i, kind in enumerate(kinds)}
-        self._switch = Numbers([choice("portrait", title, options)],
-                               lambda name, chosen, typed: soon(partial(self._look, chosen)))  # fmt: skip
-        self._shown = 0
-        self.view = pn.Column(words(f"<h2>{title}</h2>"), self._switch.view, *self._places, self._says,
+        self._switch = Choice({say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)}, 0)
+        self._switch.param.watch(lambda event: soon(partial(self._look, event.new)), "value")
+        self.view = pn.Column(words(f"<h2>{title}</h2>"), self._switch, *self._places, self._says,
                               sizing_mode="stretch_width", height=HALF, margin=0)  # fmt: skip
 
     def _look(self, chosen):
@@ -55,8 +53,6 @@ class Switch:
                 pn.pane.Bokeh(portrait.figure, sizing_mode="stretch_both", margin=0),
                 words(f'<div class="axis">{across}</div>'),
             ]
-        self._shown = chosen
-        self._switch.show({"portrait": chosen}, {})
         self.show(self._scene)
         for i, place in enumerate(self._places):
             place.visible = i == chosen
@@ -64,7 +60,7 @@ class Switch:
     def show(self, scene):
         """Draws the chosen picture."""
         self._scene = scene
-        chosen = self._shown
+        chosen = self._switch.value
         if chosen not in self._made:
             return self._look(chosen)
         self._made[chosen].show(scene)

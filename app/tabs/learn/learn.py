@@ -1,7 +1,6 @@
 """The tab Learn: the lesson, the part for theorists, and the pages beside them."""
 
 import panel as pn
-import panel_material_ui as pmui
 import param
 
 from app.model.lesson import lesson
@@ -16,7 +15,8 @@ from app.tabs.learn.published import published_view
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
-from app.widgets.cards import PLAIN, card, first, later, staged, words
+from app.widgets.cards import card, first, later, staged, words
+from app.widgets.choice import Choice
 from app.widgets.top3d import Top3D, show_top
 
 ABOVE = "@media (min-width: 1000px) { :host { margin-left: 24px !important } }"  # as the cards below it
@@ -43,11 +43,9 @@ class Learn(param.Parameterized):
         self.lesson.param.watch(asked.heard(self._heard), "asked")
         self.top = Top3D(clock=CLOCK, sizing_mode="stretch_both")
         self.derivation = Derivation(CLOCK)
-        self.sections = pmui.RadioButtonGroup.from_param(
-            self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
-            size="small", sx=PLAIN, margin=(10, 12, 0, 12), styles={"max-width": "calc(100% - 24px)"},
-            stylesheets=[ABOVE],
-        )  # fmt: skip
+        options = {say(f"learn.sections.{name}"): name for name in SECTIONS}
+        self.sections = Choice.of(self, "section", options, margin=(10, 12, 0, 12), stylesheets=[ABOVE],
+                                  styles={"max-width": "calc(100% - 24px)"})  # fmt: skip
         self.teacher = Teacher(self, lambda: self._scene, lambda room: self._tell(room=room))
         self.param.watch(lambda event: self._on_step(), "step")
         self.param.watch(lambda event: self._look(), "section")

@@ -8,7 +8,8 @@ import panel_material_ui as pmui
 
 from app.model.measured.points import VIEWS
 from app.text import say
-from app.widgets.cards import PLAIN, flow, note, words
+from app.widgets.cards import flow, note, words
+from app.widgets.choice import Choice
 
 SELECT = {"size": "small", "margin": 0, "width": 170}
 REMEMBERED = 20  # tables
@@ -23,8 +24,7 @@ class Asks:
     def __init__(self, changed):
         self._changed, self._table, self._chosen = changed, None, {}
         self.run = pmui.Select(label=say("measure.which_run"), options=[""], value="", **SELECT)
-        self.seen = pmui.RadioButtonGroup(label="", options={say(f"measure.views.{view}"): view for view in VIEWS},
-                                          value=VIEWS[0], size="small", margin=0, sx=PLAIN)  # fmt: skip
+        self.seen = Choice({say(f"measure.views.{view}"): view for view in VIEWS}, VIEWS[0])
         self._of_view = flow(words(note(say("measure.which_view")), sizing_mode=None), words(DRAWN, sizing_mode=None),
                              self.seen)  # fmt: skip
         self.view = pn.Column(sizing_mode="stretch_width", margin=0)

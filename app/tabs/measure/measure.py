@@ -27,7 +27,8 @@ from app.tabs.measure.recipe import recipes
 from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words, source_words
 from app.text import listed, say, told
-from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
+from app.widgets.cards import BUTTON, alert, flow, note, on_click, words
+from app.widgets.choice import Choice
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
@@ -57,8 +58,7 @@ class Measure:
     def _make_controls(self):
         self.part = part_of_time()
         self.part.param.watch(lambda event: self._draw(), "value_throttled")
-        self.law = pmui.RadioButtonGroup(label="", options={says: law for law, says in listed("measure.laws").items()},
-                                         value=LAW, size="small", margin=0, sx=PLAIN)  # fmt: skip
+        self.law = Choice({says: law for law, says in listed("measure.laws").items()}, LAW)
         self.law.param.watch(lambda event: self._draw(), "value")
         self.loose = pmui.CheckBoxGroup(label=say("measure.loose_label"), value=[], inline=True, margin=(4, 0),
                                         options={says: name for name, says in listed("measure.loose").items()},

@@ -1,16 +1,16 @@
 // A group of number controls and choices, in the order in which Python lists them. One request at a time is on its way.
+import { followLook } from "./look.js";
 import { Control } from "./number.js";
-import { forFingers, numbers, shared } from "./style.js";
+import { forFingers, numbers, segments, shared } from "./style.js";
 import { ask } from "../data.js";
 import { Asking } from "../lab/asking.js";
 import { Choice, part } from "../lab/parts.js";
 
-const style = `${shared}${numbers}
+const style = `${shared}${numbers}${segments}
 .frame, .frame[data-look=dark] { --ground: var(--card, #fff); }
 .group { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 220px), 1fr)); gap: 8px 24px; align-items: start; }
 .group .titled, .group > .small, .group > .choice { grid-column: 1 / -1; }
 .group > .choice { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 8px; }
-.seg { flex-wrap: wrap; background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
 .ctl .unit { min-width: 0; } .ctl .unit:empty { display: none; } .ctl label[title], [title] { cursor: help; } .ctl .small { min-height: calc(1.45em * var(--lines, 0)); }
 i, sub, sup { font-family: Georgia, serif; } sub, sup { font-size: .75em; line-height: 0; }
 .bad input[type=range] { opacity: .38; } .bad .small { display: none; }
@@ -32,16 +32,9 @@ class Group {
     this.frame = part("div", { class: "frame" }, this.place);
     el.replaceChildren(part("style", {}, style), this.frame);
     this.asking.count = JSON.parse(model.state).answered ?? 0;
-    this.look();
+    this.leaves = followLook(this.frame);
     this.build();
   }
-
-  // Takes the page's look: light or dark, and large.
-  look = () => {
-    const look = document.documentElement.dataset.look ?? "";
-    this.frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
-    this.frame.toggleAttribute("data-large", look.endsWith("large"));
-  };
 
   ask = (name, wish, typed = false) => {
     this.last = name;
@@ -112,7 +105,7 @@ class Group {
 
   leave() {
     clearTimeout(this.asking.later);
-    window.removeEventListener("tippe:look", this.look);
+    this.leaves();
   }
 }
 
@@ -122,7 +115,6 @@ export function renderNumberControls({ model, el, view }) {
   const group = new Group({ model, el, view });
   model.on("state", group.show);
   model.on("parts", group.build);
-  window.addEventListener("tippe:look", group.look);
   view.tippe = { dispose: () => group.leave() };
   model.on("remove", () => group.leave());
 }

@@ -128,7 +128,8 @@ export class Control {
     this.number.setAttribute("aria-invalid", String(Boolean(message)));
     this.element.classList.toggle("bad", Boolean(message));
     this.wrong.hidden = !message;
-    if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), this.why(message, state.nearest[this.name], kept, own));
+    this.wrong.replaceChildren(...(message
+      ? [part("b", { class: "mark", "aria-hidden": "true" }, "!"), this.why(message, state.nearest[this.name], kept, own)] : []));
   }
 
   // The message with its first sentence in bold, and a button for each remedy.

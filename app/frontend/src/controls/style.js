@@ -69,6 +69,10 @@ export const numbers = `
 .wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
 `;
 
+// A choice with buttons on a ground of its own.
+export const segments = `.seg { flex-wrap: wrap; background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
+`;
+
 // A thumb for a finger, where the page is narrow.
 export const forFingers = `.ctl input[type=range] { height: 44px; margin: -2px 0 -10px; }
   .ctl input::-webkit-slider-thumb { width: 28px; height: 28px; margin-top: -12px; border-width: 6px; }`;

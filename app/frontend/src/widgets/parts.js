@@ -22,8 +22,8 @@ export class Choice {
    * @param {object} of
    * @param {"radio" | "tab"} of.role
    * @param {string} of.label
-   * @param {[name: string, word: string, hint: string][]} of.options
-   * @param {(name: string) => void} of.choose
+   * @param {[name: string | number, word: string, hint: string][]} of.options
+   * @param {(name: any) => void} of.choose
    */
   constructor({ role, label, options, choose }) {
     this.mark = role === "tab" ? "aria-selected" : "aria-checked";
@@ -41,7 +41,7 @@ export class Choice {
     };
   }
 
-  /** @param {string} chosen */
+  /** @param {string | number} chosen */
   show(chosen) {
     for (const [name, button] of this.buttons) {
       button.setAttribute(this.mark, String(name === chosen));

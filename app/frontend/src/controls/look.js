@@ -1,0 +1,12 @@
+// Keeps a frame in the page's look: light or dark, and large. Returns a function that ends that.
+/** @param {HTMLElement} frame */
+export function followLook(frame) {
+  const take = () => {
+    const look = document.documentElement.dataset.look ?? "";
+    frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
+    frame.toggleAttribute("data-large", look.endsWith("large"));
+  };
+  take();
+  window.addEventListener("tippe:look", take);
+  return () => window.removeEventListener("tippe:look", take);
+}
