@@ -1,7 +1,7 @@
 """Dragging in the pictures, in Chromium: what is dragged follows, and everything else with it."""
 
 import pytest
-from visiting import COLUMN, IN_SIGHT, PIXEL, WHOLE, Visit, entry, open_panel, wait
+from visiting import COLUMN, DRAWN, IN_SIGHT, PIXEL, WHOLE, Visit, entry, open_panel, wait
 
 from app.model.region import least_energy
 from app.model.scene import solve
@@ -98,6 +98,7 @@ def visit(one):
     if page.get_by_role("radio", name="Constants", exact=True).get_attribute("aria-checked") != "true":
         page.get_by_role("radio", name="Constants", exact=True).click()
         page.get_by_role("slider", name="Routh’s constant").wait_for()
+    open_panel(page, "Which motions roll")
     # after releasing, the step of undo is made a moment later
     page.wait_for_function(
         f"""([undo, first]) => {{ undo.click(); const now = ({SELECTED})()
@@ -245,7 +246,6 @@ def test_the_floor_of_fig_5_can_be_pulled_and_says_why_not(visit):
     assert field(visit, "K_J") == 7.0
     visit.page.wait_for_function("__tippe.surface3d.readout.includes('on the way')")
     visit.page.mouse.up()
-    open_panel(visit.page, "Which motions roll")
 
 
 PORTRAITS = {"phase portrait": "phase", "f(θ)": "f", "effective potential": "potential", "unrolled": "ring",
@@ -277,7 +277,7 @@ def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium
                                  reduced_motion="reduce", user_agent="Android Mobile")  # fmt: skip
     visit = Visit(phone.new_page(), server, whole=False)
     page, touch = visit.page, phone.new_cdp_session(visit.page)
-    page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
+    page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})() && {DRAWN}")
     assert not page.evaluate("__tippe.top3d.playing")  # because of reduced motion
 
     def drag(x, y, by):

@@ -31,7 +31,7 @@ NOT_SAID = {
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "health.py", "logs.py", "messages.py", "pages.py",
                     "settings.py", "sockets.py")},
-    "look.js": {"dark large": "a key"},
+    "widgets/look.js": {"dark large": "a key"},
 }  # fmt: skip
 
 

@@ -5,33 +5,34 @@ docs/house.md says through which stations three gestures go, and they go through
 
 import importlib
 import re
-from functools import partial, wraps
+from functools import wraps
 from itertools import chain
 from pathlib import Path
 
-import app.tabs.roll.roll
 import panel as pn
 import pytest
-from app.model.planes.planes import Planes
-from app.tabs.planes.three_planes import ThreePlanes
-from app.tabs.roll.roll import Roll
 from bokeh.document import Document
 from house import keeping
 from panel.io.state import set_curdoc
 
 import app.model.explorer
+import app.model.lab.lab
+import app.tabs.lab.rolling
 from app.model.build.builder import Builder
 from app.model.explorer import Explorer
+from app.model.lab.lab import Lab
 from app.model.runs import Runs
 from app.page.house import House
 from app.page.page import page
 from app.share.share import Share
-from app.widgets.controls import Control, Controls
+from app.tabs.lab.lab import LabTab
+from app.tabs.lab.rolling import Rolling
+from app.widgets.controls import Controls
 from app.widgets.guide import Guide
+from app.widgets.numbers import Numbers
 from app.widgets.pacing import Pacer
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plane_view import PlaneView
-from app.widgets.plots import TimeFigures
 
 DOCS = Path(__file__).parent.parent / "docs"
 APP = DOCS.parent / "app"
@@ -41,15 +42,14 @@ SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room
 
 
 STATIONS = (
-    (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
-    (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneView, "show_selected"),
-    (PlaneView, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
-    (Planes, "ask"), (Planes, "follow"), (Planes, "_run_anew"), (Planes, "_publish"), (ThreePlanes, "show"),
-    (TimeFigures, "show"), (PlaneCard, "show_path"),
+    (Numbers, "_asked"), (Rolling, "_on_plane"), (Pacer, "ask"), (Explorer, "_solve"), (Pacer, "_on_scene"),
+    (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneView, "show_selected"), (PlaneView, "show_plane"),
+    (Controls, "show"), (Guide, "show"), (PlaneCard, "show_path"), (LabTab, "_heard"), (Lab, "ask"), (Lab, "_begin"),
+    (Lab, "_done"), (LabTab, "_told"),
 )  # fmt: skip
-FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),
-             (app.tabs.roll.roll, "show_surface"),
-             (app.model.planes.planes, "solve"))  # fmt: skip
+FUNCTIONS = (
+    (app.model.explorer, "solve"), (app.tabs.lab.rolling, "pulled"), (app.model.lab.lab, "scene_of"),
+)  # fmt: skip
 
 
 def station(owner, name):
@@ -74,7 +74,7 @@ def walk(monkeypatch):
 
     for owner, name in (*STATIONS, *FUNCTIONS):
         monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
-    for kind in (House, Roll, Controls, ThreePlanes):
+    for kind in (House, Rolling, Controls, LabTab, PlaneCard):
         monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
     monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: results come at once
@@ -105,40 +105,41 @@ def told(title):
     return re.findall(r"^\d+\. `([^`]*)`", part, re.M)
 
 
+PAPERS = "?v=3&tab=roll"
+
+
 def test_the_walk_of_a_slider(walk):
-    made, passed, rest = walk("?v=1&tab=roll")
+    made, passed, rest = walk(PAPERS)
     made[Controls].numbers.view.asked = [1, "K_J", 6.5, False]
     rest()
-    assert made[Roll]._scene.constants.K_J == 6.5
+    assert made[Rolling]._scene.constants.K_J == 6.5
     assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
 
 
 def followers(pacer):
-    """The names of everything that a Pacer shows scenes to; the parts of what the rooms bundle."""
+    """The names of everything that a Pacer shows scenes to."""
     for show in chain.from_iterable(pacer._shows.values()):
-        bundled = show.args[0] if isinstance(show, partial) and show.func.__qualname__ == "Roll._draw" else [show]
-        yield from (getattr(part, "func", part).__qualname__ for part in bundled)
+        yield getattr(show, "func", show).__qualname__
 
 
 def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
-    made, _, _ = walk("?v=1&tab=roll")
+    made, _, _ = walk(PAPERS)
     stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
-    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls that of PlaneView, the other visible parts
-    assert {*followers(made[House].pacer)} - stations == turned
+    assert {*followers(made[House].pacer)} - stations == {"Research._on_scene"}  # which has the panel draw it
 
 
 def test_the_walk_of_a_tieline_that_is_pulled(walk):
-    made, passed, rest = walk("?v=1&tab=roll")
-    made[Roll]._plane.hand = ["line", 0.5, 6.5]
+    made, passed, rest = walk(PAPERS)
+    made[PlaneCard].plane.hand = ["line", 0.5, 6.5]
     rest()
-    assert made[Roll]._scene.constants.K_J == 6.5
+    assert made[Rolling]._scene.constants.K_J == 6.5
     assert passed == told("A tieline that is pulled") and len({*passed}) == len(passed)
 
 
 @pytest.mark.slow
 def test_the_walk_of_a_run_with_friction(walk):
-    made, passed, rest = walk("?v=1&tab=three-planes")
-    made[ThreePlanes]._start.starts.view.asked = [1, "tilt", 15.0, False]
+    made, passed, rest = walk("")
+    made[LabTab].view.asked = [1, "tilt", 15.0]
     rest()
     assert passed == told("A run with friction") and len({*passed}) == len(passed)
 
@@ -147,12 +148,12 @@ def test_the_walk_of_a_run_with_friction(walk):
 
 # {room: what shows scenes there, besides what shows them on every page}
 FOLLOW = {
-    "lab": set(), "roll": None, "three-planes": {"Planes.follow"}, "families": {"Tops.show", "Compare.show"},
-    "build-a-top": {"Build.show", "VerdictWords.show"}, "learn": {"Learn.show"}, "maps": {"Maps.show"},
+    "lab": {"Controls.follow", "Controls.show", "Research._on_scene"}, "families": {"Tops.show", "Compare.show"},
+    "build-a-top": {"Build.show", "VerdictWords.show", "show_top"}, "learn": {"Learn.show"}, "maps": {"Maps.show"},
     "measure": {"Measure.show"},
 }  # fmt: skip
-# And what else listens to an input of the Explorer: which of the planes is visible.
-HEARS = {"three-planes": {("table", "House.planes")}}
+# And what else listens to an input of the Explorer: the panel that fits the table, and where it is.
+HEARS = {"lab": {("table", "House.lab"), ("table", "Research.__init__")}}
 
 
 def hearers(explorer):
@@ -165,7 +166,7 @@ def hearers(explorer):
 
 
 @pytest.fixture
-def roomy(monkeypatch):
+def roomy(monkeypatch, request):
     """(a House with its page, a list of the views created from now on, with their names)."""
     houses, given = [], []
 
@@ -186,7 +187,8 @@ def roomy(monkeypatch):
     monkeypatch.setattr(House, "__init__", noted(House.__init__, lambda house, inputs: houses.append(house)))
     monkeypatch.setattr(Runs, "begin", lambda self, run, *name: run)  # nothing is computed
     with set_curdoc(Document()):
-        pn.state.location.search = "?v=1&tab=roll"
+        first = "families" if "[learn]" in request.node.name else "learn"  # another room than that of the test
+        pn.state.location.search = f"?v=4&tab={first}&level=research"
         page()
         yield houses[0], given
 
@@ -196,14 +198,11 @@ def test_a_room_is_told_of_scenes_by_the_pacer_alone(roomy, name):
     """A view that is created with the Explorer or the House, or that watches the Explorer, is noticed."""
     house, given = roomy
     before, heard = {*followers(house.pacer)}, {*hearers(house.explorer)}
-    if name != "roll":  # which already exists
-        house.makers[name]()
-        assert {*followers(house.pacer)} - before == FOLLOW[name]
+    house.makers[name]()
+    assert {*followers(house.pacer)} - before == FOLLOW[name]
     assert {*hearers(house.explorer)} - heard == HEARS.get(name, set())
     assert {fn for parameter, fn in heard if parameter == "scene"} == {"Pacer._on_scene"}
-    # the head shows the top and the table, and the page the room of the table
-    assert {(name, fn) for name, fn in heard if fn == "page"} == {("table", "page")}
-    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells", "page"}
+    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells"}  # the head shows the top
     known = [(kind.__name__, type(each).__name__) for kind, each in given if isinstance(each, (Explorer, House))]
     assert known == [("Pacer", "Explorer")]  # between requests and the Explorer
 
@@ -212,7 +211,7 @@ def test_a_room_is_told_of_scenes_by_the_pacer_alone(roomy, name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("query, first", [("", "lab"), ("?v=1&tab=roll", "roll")])
+@pytest.mark.parametrize("query, first", [("", "lab"), ("?v=4&tab=learn", "learn")])
 def test_the_page_needs_no_tab_but_the_first_to_be_made(query, first, monkeypatch):
     """Whichever that is: the others are made when they are looked at."""
     made = []
@@ -225,7 +224,7 @@ def test_the_page_needs_no_tab_but_the_first_to_be_made(query, first, monkeypatc
 
         return making
 
-    for name in ("lab", "roll", "planes", "build", "families", "learn", "measure"):
+    for name in ("lab", "build", "families", "learn", "measure"):
         monkeypatch.setattr(House, name, noted(getattr(House, name)))
     with set_curdoc(Document()):
         pn.state.location.search = query

@@ -84,7 +84,7 @@ class Numbers:
         count, name, wish, typed = asked.parts(event.new, asked.number, asked.text, asked.anything, bool)
         if name in self._options:
             if wish not in self._options[name]:
-                raise asked.Unasked("not one of the options")
+                raise asked.Unasked(wish)
         elif name not in self._numbers:
             raise asked.Unasked(name)
         elif not (typed and isinstance(wish, str)):

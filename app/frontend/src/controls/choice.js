@@ -1,7 +1,7 @@
 // One of several, by buttons.
 import { segments, shared } from "./style.js";
 import { followLook } from "./look.js";
-import { Choice, part } from "../lab/parts.js";
+import { Choice, part } from "../widgets/parts.js";
 
 const style = `${shared}${segments}
 .frame, .frame[data-look=dark] { --ground: var(--card, #fff); container-type: normal; }
