@@ -50,7 +50,7 @@ export class Player {
   setFrames(bytes, azimuth) {
     this.frames = new Frames(bytes, azimuth);
     if (this.playing) this.t = this.isEnd(this.t) ? this.frames.start : this.within(this.t);
-    else this.t = this.frames.count ? this.frames.time(this.frames.nearest(this.t)) : 0;
+    else this.t = this.frames.count ? this.stand(this.t) : 0;
     this.changed();
   }
 
@@ -120,9 +120,15 @@ export class Player {
     this.held = held;
     if (!this.frames.count) return;
     if (this.playing && !held && this.isEnd(t)) this.setPlaying(false);
-    if (this.playing) this.t = this.within(t);
-    else this.land(this.frames.nearest(t));
+    this.t = this.playing ? this.within(t) : this.stand(t);
+    if (!this.playing) this.landed();
     this.changed();
+  }
+
+  // Where a paused motion stands for a time: on a frame if it repeats, else there, also between two frames.
+  /** @param {number} t */
+  stand(t) {
+    return this.last < Infinity ? this.within(t) : this.frames.time(this.frames.nearest(t));
   }
 
   /** @param {number} index */
