@@ -1,133 +1,139 @@
-"""The whole page in Chromium: it shows the numbers of tippe_core, and plays without the server."""
+"""The level "Research" in Chromium: it shows the numbers of tippe_core beside Explore's stage, and sets nothing."""
+
+import re
 
 import numpy as np
 import pytest
-from axe import DARK, LIGHT, LOOK, check
-from visiting import Visit, wait
+from axe import DARK, LIGHT, check
+from house import by_hand
+from playwright.sync_api import expect
+from visiting import IN_SIGHT, PIXEL, Visit, entry, open_panel, wait
 
+from app.model.explorer import Explorer
+from app.model.lab.lab import scene_of
 from app.model.scene import solve
-from tippe_core import Top
+from tippe_core import PRESETS, Top, grip, roll
 
 pytestmark = pytest.mark.served
 
-K_J_FIELD, I3_FIELD = 0, 6  # indices among the controls
-
-FIELDS = "input[type=text]:visible"
-# The positions of all figures, 3-D pictures and controls.
-PLACES = """() => [...Bokeh.documents[0]._all_models.values()].filter((model) => "sizing_mode" in model.properties)
+MODELS = "[...Bokeh.documents[0]._all_models.values()]"
+# The columns of a name of the sources in a figure, in the order of the tables.
+COLUMN = f"""
+([figure, column]) => {MODELS}.find((m) => m.name == figure && m.renderers).renderers
+    .map((r) => r.data_source.data).filter((d) => column in d).map((d) => Array.from(d[column]))
+"""
+TOPS = "__tippe.tops('lab').filter((top) => top.count > 0)"
+SELECTED = "() => __tippe.plane.selected"
+# The positions of all controls and pictures.
+PLACES = f"""() => {MODELS}.filter((model) => "sizing_mode" in model.properties)
     .map((model) => Bokeh.index.find_one(model)?.el?.getBoundingClientRect()).filter((box) => box?.width)
-    .map(({x, y, width, height}) => [x, y, width, height])"""
+    .map(({{x, y, width, height}}) => [x, y, width, height])"""
 
 
-COLOURS = """() => {
-    const all = (root) => [...root.querySelectorAll("*")]
-        .flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
-    const kinds = "[role=tab][aria-selected=false], [role=radio][aria-checked=false], label"
-    const widgets = all(document).filter((e) => e.matches(kinds) && e.offsetParent)
-    return widgets.map((e) => getComputedStyle(e).color.match(/[\\d.]+/g).slice(0, 3).map(Number))
-        .map(([r, g, b]) => r + g + b)
-}"""
+def put(page, name, value):
+    entry(page, name).fill(str(value))
+    entry(page, name).press("Enter")
 
 
-def the_widgets_go_dark_at_once(page):
-    """In the same frame as the page; they are not created again one by one."""
-    page.wait_for_function("Bokeh.documents[0].is_idle")
-    quiet = 0x5B + 0x68 + 0x75  # the colour --faint of the other tabs in the head
-    light = page.evaluate(COLOURS)
-    page.evaluate(LOOK, DARK)
-    dark = page.evaluate(COLOURS)
-    page.evaluate(LOOK, LIGHT)
-    assert len(light) == len(dark) > 10
-    assert max(light) <= quiet < 450 < min(dark)
+def until_selected(page, **values):
+    page.wait_for_function(
+        f"(want) => {{ const has = ({SELECTED})(); return Object.entries(want).every(([k, v]) => has[k] === v) }}",
+        arg=values,
+    )
 
 
-def the_top_and_the_lines_over_time_go_with_the_clock(visit):
-    motion = solve(Top.paper(), 7.0, 10.0, 0.5, 0.9).trajectory
-    for index in (0, 100, 777):
-        t = float(motion.t[index])
-        visit.page.evaluate("t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", t)
-        visit.page.wait_for_function("i => __tippe.top3d.index == i", arg=index)
-        drawn = np.array(visit.page.evaluate("__tippe.top3d.quaternion"))
-        assert abs(drawn @ motion.quaternion[index]) == pytest.approx(1, abs=1e-6)
-        visit.page.wait_for_function("""t => {
-            const lines = [...Bokeh.documents[0]._all_models.values()]
-                .filter((m) => m.type == "Span" && m.level == "overlay")
-            return lines.length && lines.every((m) => Math.abs(m.location - t) < 0.02)
-        }""", arg=t)  # fmt: skip
+def seek(page, t):
+    page.evaluate("t => window.dispatchEvent(new CustomEvent('tippe:seek:lab', {detail: {t}}))", t)
+    page.wait_for_function("t => Math.abs(__tippe.top3d.t - t) < 1e-6", arg=t)
 
 
-def a_bad_value_is_said_beside_its_control(visit):
-    before = visit.column("theta", 0, "theta")
-    field = visit.page.locator(FIELDS).nth(I3_FIELD)
+def the_top_is_the_one_that_rolls(page):
+    """Its pose between two frames too: against tippe_core at that time."""
+    start = Explorer(table="rough").setup
+    state, _ = grip(start.top, start.state)
+    for t in (0.0, 0.3, 2.0):
+        seek(page, t)
+        q = roll(start.top, None, [0.0, page.evaluate("__tippe.top3d.t")], state).quaternion[-1]
+        assert abs(np.array(page.evaluate("__tippe.top3d.quaternion")) @ q) == pytest.approx(1, abs=2e-3)
+
+
+def a_bad_value_is_said_beside_its_control(page):
+    before = page.evaluate(SELECTED)
     for text, says in (("0.9", "0.9"), ("not this", "not a number")):
-        field.fill(text)
-        field.press("Enter")
-        visit.page.locator("[role=alert]:visible", has_text=says).wait_for()
-    assert np.array_equal(visit.column("theta", 0, "theta"), before)
-    field.fill("0.4")
-    field.press("Enter")
-    visit.page.locator("[role=alert]:visible").wait_for(state="detached")
-    visit.until_column("theta", 0, "theta", solve(Top(0.07, 0.399, 0.4), 7.0, 10.0, 0.5, 0.9).trajectory.theta[0])
-    field.fill("0.408")
-    field.press("Enter")
-    visit.until_column("theta", 0, "theta", before[0])
+        put(page, "I3", text)
+        page.locator("[role=alert]:visible", has_text=says).wait_for()
+    assert page.evaluate(SELECTED)["inner"] == before["inner"]
+    put(page, "I3", "0.4")
+    page.locator("[role=alert]:visible").wait_for(state="detached")
+    _, outer = solve(Top(0.07, 0.399, 0.4), 7.0, 10.0, 0.5, 0.9).turning
+    wait(page, lambda: page.evaluate(SELECTED)["outer"] == pytest.approx(outer, abs=1e-6))
+    put(page, "I3", "0.408")
+    wait(page, lambda: page.evaluate(SELECTED)["outer"] == pytest.approx(before["outer"], abs=1e-6))
 
 
 def nothing_moves_while_a_slider_is_dragged(visit):
     """Numbers get longer, and sentences appear and disappear, but nothing on the page moves."""
     page = visit.page
     page.wait_for_function("Bokeh.documents[0].is_idle")
-    before = page.evaluate(PLACES)
-    thumb = page.locator("input[data-input]:visible").nth(K_J_FIELD).bounding_box()
-    across, up = thumb["x"], thumb["y"] + thumb["height"] / 2
-    visit.drag((across + 0.7 * thumb["width"], up), (across + 0.2 * thumb["width"], up))
-    field = page.locator(FIELDS).nth(K_J_FIELD)
-    page.wait_for_function("field => Number(field.value) < 2.5", arg=field.element_handle())
-    assert len(before) > 20 and page.evaluate(PLACES) == before
+    slider = page.get_by_role("slider", name="Jellett’s constant")
+    slider.evaluate(IN_SIGHT)
+    before, thumb = page.evaluate(PLACES), slider.bounding_box()
+    up = thumb["y"] + thumb["height"] / 2
+    visit.drag((thumb["x"] + 0.7 * thumb["width"], up), (thumb["x"] + 0.2 * thumb["width"], up))
+    wait(page, lambda: float(entry(page, "K_J").input_value()) < 2.5)
+    assert len(before) > 5 and page.evaluate(PLACES) == before
     page.mouse.up()
-    # all pictures of the drag have arrived, so that none arrives after what is typed next
-    wait(page, lambda: abs(visit.column("constants", 0, "K_J")[0] - float(field.input_value())) < 1e-4)
-    page.wait_for_function("Bokeh.documents[0].is_idle")
-    assert page.evaluate(PLACES) == before
+    wait(
+        page, lambda: page.evaluate(SELECTED)["K_J"] == pytest.approx(float(entry(page, "K_J").input_value()), abs=1e-4)
+    )
 
 
-def after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
-    """Also in a tab that paints nothing: then nothing tells the server that its pictures have arrived."""
-    field = visit.page.locator(FIELDS).nth(K_J_FIELD)
-    field.fill("7")
-    field.press("Enter")
-    visit.until_column("constants", 0, "K_J", 7.0)
-    visit.page.wait_for_function("Bokeh.documents[0].is_idle")
-    visit.page.evaluate("() => { window.requestAnimationFrame = () => 0 }")
-    thumb = visit.page.locator("input[data-input]:visible").nth(K_J_FIELD)
-    thumb.focus()
-    for _ in range(30):
-        thumb.press("ArrowLeft")
+def after_a_slider_moved_the_figure_is_tippe_cores(page):
+    put(page, "K_J", 6.7)
     scene = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
-    visit.until_column("constants", 0, "K_J", scene.K_J[0])
-    motion, every = scene.trajectory, 2
-    # The slider's own sum of steps differs from 6.7 in the last digits.
-    for figure, values in {"theta": motion.theta, "normal": scene.normal, "ratio": scene.ratio}.items():
-        assert visit.column(figure, 0, figure) == pytest.approx(values[::every], abs=1e-11)
-    plane = {"K_J": scene.plane.K_J, "slip_in": scene.plane.slip.theta_inner, "verge": scene.plane.slip.theta_verge}
-    for column, values in plane.items():
-        assert np.array_equal(visit.column("plane", 0, column), values)
+    until_selected(page, K_J=6.7)
+    for column, values in (("K_J", scene.plane.K_J), ("slip_in", scene.plane.slip.theta_inner),
+                           ("verge", scene.plane.slip.theta_verge)):  # fmt: skip
+        wait(page, lambda column=column, values=values: np.array_equal(
+            page.evaluate("name => Array.from(__tippe.plane.limits[name])", column), values))  # fmt: skip
 
 
-def test_what_is_shown_is_tippe_cores(visit):
+def test_what_rolls_is_tippe_cores(visit):
+    page = visit.page
     visit.pause()
-    the_widgets_go_dark_at_once(visit.page)
-    check(visit.page, "roll")
-    the_top_and_the_lines_over_time_go_with_the_clock(visit)
-    a_bad_value_is_said_beside_its_control(visit)
+    for look in (LIGHT, DARK):
+        check(page, "research", look)
+    the_top_is_the_one_that_rolls(page)
+    a_bad_value_is_said_beside_its_control(page)
     nothing_moves_while_a_slider_is_dragged(visit)
-    after_a_slider_moved_the_data_on_display_are_tippe_cores(visit)
+    after_a_slider_moved_the_figure_is_tippe_cores(page)
 
 
-def test_it_moves_at_once_sends_nothing_and_what_is_out_of_sight_is_drawn_when_it_comes_into_sight(chromium, server):
-    """Fig. 5 is visible from the start, with all controls of the motion."""
+def test_research_and_back_is_the_same_canvas_whose_time_has_gone_on(chromium, server):
     with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
-        visit = Visit(context.new_page(), server, near=True)
+        visit = Visit(context.new_page(), f"{server}?v=4", whole=False)
+        page = visit.page
+        page.wait_for_function(f"{TOPS}.length && __tippe.top3d.t > 0")
+        canvas = page.locator("canvas[aria-label^='The top']").first.element_handle()
+        page.evaluate("canvas => { window.canvas = canvas }", canvas)
+        for level, there in (("Research", True), ("Explore", False), ("Research", True), ("Explore", False)):
+            before = page.evaluate("__tippe.top3d.t")
+            page.get_by_role("radio", name=level, exact=True).click()
+            expect(page.get_by_role("radio", name="Over time", exact=True)).to_be_visible(visible=there)
+            page.wait_for_function("t => __tippe.top3d.t > t", arg=before)
+            assert page.evaluate("canvas.isConnected && __tippe.top3d.playing")
+            page.wait_for_function(f"location.search == '{'?v=4&level=research' if there else ''}'")
+        received = page.evaluate("__tippe.top3d.motions.received")
+        visit.sent.clear()
+        page.get_by_role("radio", name="Research", exact=True).click()
+        page.wait_for_function("location.search == '?v=4&level=research'")
+        assert page.evaluate("__tippe.top3d.motions.received") == received  # no motion was computed for it
+        assert not visit.errors
+
+
+def test_it_moves_at_once_and_sends_nothing(chromium, server):
+    with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
+        visit = Visit(context.new_page(), server)
         page = visit.page
         assert page.title() == "Tippe top explorer"
         page.wait_for_function(
@@ -135,21 +141,9 @@ def test_it_moves_at_once_sends_nothing_and_what_is_out_of_sight_is_drawn_when_i
         )
         wait(page, lambda: plays_without_a_word(visit))  # a page that has just loaded still sends its size
         visit.pause()
-        shown = "m => m.near === false"
-        page.wait_for_function(f"[...Bokeh.documents[0]._all_models.values()].filter({shown}).length == 3")
-        for seen in ("canvas[aria-label^='Figure 5']", "[data-figure=plane]", *(
-                f"input[data-input={name}]" for name in ("K_J", "K_R", "energy", "mu_s"))):  # fmt: skip
-            box = page.locator(seen).first.bounding_box()
-            assert box["y"] + min(box["height"], 30) < 900, seen
-        field = page.locator(FIELDS).nth(K_J_FIELD)
-        field.fill("6.7")
-        field.press("Enter")
-        expected = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
-        page.wait_for_function("n => __tippe.top3d.count == n", arg=len(expected.trajectory.t))
-        page.wait_for_function("/KJ=6.7/.test(location.search)")  # everything is at rest
-        assert visit.column("constants", 0, "K_J")[0] == pytest.approx(7.0)
-        page.locator("[data-figure=constants]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
-        visit.until_column("constants", 0, "K_J", expected.K_J[0])
+        for name in ("K_J", "K_R", "energy", "mu_s"):
+            box = entry(page, name).bounding_box()
+            assert box["y"] + min(box["height"], 30) < 900, name
 
 
 def plays_without_a_word(visit):
@@ -158,3 +152,67 @@ def plays_without_a_word(visit):
     pictures = visit.page.evaluate("__tippe.top3d.pictures")
     visit.page.wait_for_function("n => __tippe.top3d.pictures > n + 5", arg=pictures)
     return not visit.sent
+
+
+# ---- the runs on the tables ----
+
+HAND = "?v=4&level=research&panel=time&" + "body=TruncatedSphere_.016_.0082_.0192_.0032_.0115&a=.07&I1=.399&I3=.408"
+THROWN = f"{HAND}&spin=20&tilt=10&mu_k=.3&law=smoothed&eps=.1&table=three"
+
+
+def test_three_tables_side_by_side_go_by_one_clock(chromium, server):
+    motions = scene_of("three", by_hand(seconds=6.0)).motions
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
+        visit = Visit(context.new_page(), server + THROWN, whole=False)
+        page = visit.page
+        page.wait_for_function(f"{TOPS}.length == 3")
+        seek(page, 40.0)
+        page.wait_for_function(f"{TOPS}.every(top => Math.abs(top.t - 40) < 1e-6)")
+        unit = motions["ordinary"].start.scales.time
+        for label, table in (("ordinary", "ordinary"), ("rough", "rough"), ("ice", "ice")):
+            moved = motions[table].trajectory
+            index = int(np.searchsorted(moved.t, 40.0))
+            near = page.evaluate(f"label => {TOPS}.find((top) => top.label.includes(label)).quaternion", label)
+            assert max(abs(np.array(near) @ moved.quaternion[i]) for i in (index - 1, index)) > 0.9
+        page.wait_for_function(
+            f"t => {MODELS}.filter((m) => m.type == 'Span' && Math.abs(m.location - t) < 1e-4).length == 6",
+            arg=40.0 * unit,
+        )
+        shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
+        for values, table in zip(shown, ("ordinary", "rough", "ice"), strict=True):
+            theta = np.degrees(motions[table].trajectory.theta)
+            assert min(values) <= theta.min() + 1e-6 and max(values) >= theta.max() - 1e-6
+        check(page, "over time", DARK)
+
+
+def test_the_panels_show_what_happened_and_an_example_sets_top_start_and_law(chromium, server):
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
+        visit = Visit(context.new_page(), f"{server}?v=4&level=research", whole=False)
+        page = visit.page
+        open_panel(page, "Values")
+        page.get_by_role("button", name=re.compile(r"^1\.47 s\s*stands on its stem")).click()
+        unit = 0.0391  # s of this toy
+        page.wait_for_function("t => Math.abs(__tippe.top3d.t - t) < 0.05", arg=1.471 / unit)
+        page.get_by_text(re.compile("Take this run as one of many")).wait_for()
+        page.locator("summary", has_text="details of its friction").click()
+        page.get_by_label("An example", exact=True).select_option("Top S hangs")
+        expect(page.get_by_label("Spin, in turns a second", exact=True)).to_have_value("9.5")
+        page.wait_for_function("/spin=9.5493&.*law=viscous/.test(location.search)")
+        page.keyboard.press("Control+z")
+        page.wait_for_function("!location.search.includes('law=')")
+        check(page, "values", DARK)
+
+
+def test_of_two_quick_clicks_on_the_map_the_second_counts(chromium, server):
+    """Bokeh calls it a doubletap, though it is elsewhere. The first is where the map has the top of a preset."""
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
+        page = Visit(context.new_page(), f"{server}?v=4&level=research&panel=ends", whole=False).page
+        page.locator("[data-figure=planes-map]").evaluate(IN_SIGHT)
+        top = next(body for body in PRESETS if body.name == "Loaded sphere").shape.top
+        place = f"['x', 'y'].every((c, i) => Math.abs(({COLUMN})(['planes-map', c]).at(-1)[0] - place[i]) < 5e-3)"
+        page.mouse.click(*page.evaluate(PIXEL, ["planes-map", top.a, top.I1 / top.I3]))
+        page.wait_for_function(f"place => {place}", arg=[top.a, top.I1 / top.I3])
+        pixels = [page.evaluate(PIXEL, ["planes-map", *at]) for at in ([0.6, 0.7], [0.3, 1.0])]
+        page.mouse.click(*pixels[0])
+        page.mouse.click(*pixels[1])
+        page.wait_for_function(f"place => {place}", arg=[0.3, 1.0])

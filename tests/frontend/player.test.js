@@ -95,8 +95,10 @@ function oncePlayed(until, ...times) {
 test("a motion that is played once pauses at its end, by itself and wherever a person lets go of it", () => {
   const { player, heard } = oncePlayed(5 * (1 + 1e-7), 1, 2, 5);
   player.seek(4);
+  assert.equal(player.t, 4); // between two rows
+  player.seek(5);
   player.setPlaying(true);
-  assert.deepEqual([player.t, player.playing], [1, true]); // 5 is the nearest row, and there it starts again
+  assert.deepEqual([player.t, player.playing], [1, true]); // at its end it starts again
   for (const now of [1000, 1200, 1400]) assert.equal(player.advance(now, 0.01), false);
   assert.deepEqual([player.t, player.playing], [5, false]);
   for (const [beyond, way] of [[5 * (1 + 1e-7), "the key End"], [9, "a pointer beyond the edge"]]) {
