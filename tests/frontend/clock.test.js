@@ -126,26 +126,3 @@ test("with reduced motion nothing plays by itself", () => {
   together([topOn("a", { playing: true })], ({ player, model }) => assert.deepEqual([player.playing, model.playing], [false, false]));
   still = false;
 });
-
-test("a view of the page's start that appears continues at the time of the last one, in seconds", () =>
-  together([topOn("lab", { rows: [0, 1, 2, 3], seconds: 1 }), topOn("planes", { wide: 0, rows: [0, 10, 20, 30], seconds: 0.1 }),
-    topOn("", { wide: 0, rows: [0, 1, 2, 3], seconds: 0.5 })], (...tops) => {
-    const [lab, planes, rolls] = tops;
-    const see = (shown) => {
-      for (const top of tops) top.place.picture.clientWidth = Number(top === shown);
-      for (const { place } of tops) place.say("");
-    };
-    lab.player.seek(2);
-    see(lab);
-    see(planes);
-    assert.deepEqual(tops.map(({ player }) => player.t), [2, 20, 0]);
-    see(rolls); // 2 s are 4 units of its time, and its motion repeats every 3
-    assert.deepEqual(tops.map(({ player }) => player.t), [2, 20, 1]);
-    see(lab); // and nobody has moved it
-    assert.equal(lab.player.t, 2);
-    see(rolls);
-    rolls.player.seek(3);
-    see(rolls);
-    see(planes);
-    assert.deepEqual(tops.map(({ player }) => player.t), [2, 20, 3]); // 1.5 s, at the nearest of its frames
-  }));

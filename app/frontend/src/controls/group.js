@@ -68,7 +68,7 @@ class Group {
   }
 
   choice(given) {
-    return part("div", { class: "choice" }, this.buttons(given));
+    return part("div", { class: "choice", "data-input": given.name }, this.buttons(given));
   }
 
   buttons({ name, label, options }) {
