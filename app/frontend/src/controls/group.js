@@ -34,6 +34,7 @@ class Group {
     this.asking.count = JSON.parse(model.state).answered ?? 0;
     this.look();
     this.build();
+    this.show();
   }
 
   // Takes the page's look: light or dark, and large.
@@ -60,7 +61,6 @@ class Group {
       this.parts.set(given.name ?? given.choice?.name, made);
       return made;
     }));
-    this.show();
   };
 
   heading({ text, choice }) {
@@ -121,7 +121,10 @@ export function renderNumberControls({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const group = new Group({ model, el, view });
   model.on("state", group.show);
-  model.on("parts", group.build);
+  model.on("parts", () => {
+    group.build();
+    queueMicrotask(group.show); // the state of these parts comes after them, in the same message
+  });
   window.addEventListener("tippe:look", group.look);
   view.tippe = { dispose: () => group.leave() };
   model.on("remove", () => group.leave());
