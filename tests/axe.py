@@ -36,6 +36,7 @@ def check(page, where, look=LIGHT):
     """axe-core finds nothing in this look; then the page is in its usual one again."""
     page.wait_for_function("window.Bokeh?.documents?.[0]?.is_idle")
     page.evaluate(LOOK, look)
-    assert violations(page) == [], where
+    found = violations(page)
+    assert found == [], (where, found)
     if look != LIGHT:
         page.evaluate(LOOK, LIGHT)

@@ -45,16 +45,13 @@ APP = [
     "region",
     "frames",
     "bodies",
-    "planes",
-    "planes/picture",
-    "planes/run",
     "family",
 ]
 FILES = [*CORE, *APP]
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
          "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
 ROLLS = files("smooth accuracy rolling rolling_long sliding stick_slip claims tielines properties")
-SLIDES = files("stem ending planes planes_said planes_asked outcome properties")
+SLIDES = files("stem ending tables outcome properties")
 REST = dict.fromkeys(SLIDING, SLIDES)
 FIRST = {
     **{name: ["test_symbolic.py", "test_equations.py", "test_rolling.py", "test_rolling_long.py"] for name in ROLLING},
@@ -72,13 +69,9 @@ OF_APP = {
         for name in ("explorer", "scene", "marks", "region", "frames", "bodies")
     },
     "hands": ["test_hands.py"],
-    **{
-        name: ["test_planes.py", "test_planes_said.py", "test_planes_asked.py", "test_ending.py"]
-        for name in ("planes", "planes/picture", "planes/run")
-    },
     "family": ["test_family_map.py", "test_builder.py", "test_scene.py"],
 }
-REST_OF_APP = files("explorer scene planes planes_said lesson export builder family_map")
+REST_OF_APP = files("explorer scene tables lesson export builder family_map")
 
 
 def tests_of(name, slow, best):

@@ -62,9 +62,7 @@ def test_more_connections_than_files_wait_and_come_in_when_those_before_have_gon
         inside = await Visitor.enter(f"{server.url}?tab=roll")
         silent = await asyncio.to_thread(crowd, server.url, 2 * FEW)
         await asyncio.to_thread(until, lambda: "no more connections for now" in server.log)
-        answered, _ = await inside.answer(
-            await inside.set(inside.find("NumberControls")[0], "asked", [1, "K_J", 6.5, False])
-        )
+        answered, _ = await inside.answer(await inside.set(inside.group("K_J"), "asked", [1, "K_J", 6.5, False]))
         inside.leave()
         return answered, silent
 

@@ -113,7 +113,7 @@ def test_research_and_back_is_the_same_canvas_whose_time_has_gone_on(chromium, s
     with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
         visit = Visit(context.new_page(), f"{server}?v=4", whole=False)
         page = visit.page
-        page.wait_for_function(f"{TOPS}.length && __tippe.top3d.t > 0")
+        page.wait_for_function(f"window.__tippe?.top3d && {TOPS}.length && __tippe.top3d.t > 0")
         canvas = page.locator("canvas[aria-label^='The top']").first.element_handle()
         page.evaluate("canvas => { window.canvas = canvas }", canvas)
         for level, there in (("Research", True), ("Explore", False), ("Research", True), ("Explore", False)):
@@ -165,7 +165,7 @@ def test_three_tables_side_by_side_go_by_one_clock(chromium, server):
     with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
         visit = Visit(context.new_page(), server + THROWN, whole=False)
         page = visit.page
-        page.wait_for_function(f"{TOPS}.length == 3")
+        page.wait_for_function(f"window.__tippe?.tops && {TOPS}.length == 3")
         seek(page, 40.0)
         page.wait_for_function(f"{TOPS}.every(top => Math.abs(top.t - 40) < 1e-6)")
         unit = motions["ordinary"].start.scales.time

@@ -333,9 +333,7 @@ def test_the_server_calls_nobody_and_needs_no_place_to_write(tmp_path, monkeypat
 
     async def visit(url):
         visitor = await Visitor.enter(f"{url}?tab=roll")
-        answered, _ = await visitor.answer(
-            await visitor.set(visitor.find("NumberControls")[0], "asked", [1, "K_J", 6.5, False])
-        )
+        answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "asked", [1, "K_J", 6.5, False]))
         visitor.leave()
         return answered
 

@@ -4,10 +4,12 @@ from queue import Queue
 
 import numpy as np
 import pytest
+from house import lab_of
 
 from app.model import life
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
 from app.model.events import first_times
+from app.model.explorer import Explorer
 from app.model.lab import ends
 from app.model.lab.allowed import LIMITS
 from app.model.lab.ends import SPINS, Ends
@@ -54,6 +56,19 @@ def test_what_cannot_be_is_told_and_all_else_stays(lab, name, value, says):
     assert dict(lab.scene.messages) == {name: says} and lab.inputs == before and lab.scene.motions is motions
     lab.ask(spin=28.65)
     assert not lab.scene.messages
+
+
+@pytest.mark.parametrize("given", ["hand", "share"])
+def test_what_another_control_refuses_stays_there_until_it_is_changed_or_the_lab_is_asked(given):
+    explorer = Explorer(given=given)
+    lab = lab_of(explorer)
+    scene, good = lab.scene, explorer.I3
+    explorer.I3 = 2.0
+    assert explorer.I3 == 2.0 and "I3" in explorer.scene.messages and lab.scene is scene
+    lab.ask(table="ice")
+    explorer.settle()
+    assert lab.scene.table == "ice" and not lab.scene.messages
+    assert explorer.I3 == good and not explorer.scene.messages
 
 
 @pytest.mark.parametrize(("name", "value", "near"), [

@@ -37,7 +37,7 @@ def test_it_flips_with_nothing_clicked_another_table_keeps_the_start_and_a_link_
         put(page, "Tilt, in degrees", 12)
         page.wait_for_function("location.search.includes('table=ice') && location.search.includes('tilt=12')")
         asked = parse_qs(urlsplit(page.url).query)
-        assert asked == {"v": ["3"], "table": ["ice"], "spin": ["28.8"], "tilt": ["12"]}
+        assert asked == {"v": ["4"], "table": ["ice"], "spin": ["28.8"], "tilt": ["12"]}
         with chromium.new_context(viewport=page.viewport_size, reduced_motion="reduce") as elsewhere:
             other = come(elsewhere.new_page(), page.url).page
             other.locator(".lab[data-table=ice]").wait_for()
@@ -90,7 +90,7 @@ def the_papers_figures(page):
     page.get_by_role("button", name="The paper’s figures for this top").click()
     page.locator("[data-figure=plane]").first.wait_for()
     assert is_seen(page, "Roll")
-    page.wait_for_function("location.search.includes('by=hand')")  # the same start, at the other level
+    page.wait_for_function("location.search.includes('level=research')")  # the same start, at the other level
     assert {"spin=28.8", "tilt=12"} <= {*urlsplit(page.url).query.split("&")}
     start = start_of("Leine and Glocker's toy", 28.8, 12.0, 0.3)
     state, lost = grip(start.top, start.state)

@@ -39,7 +39,7 @@ def told(step, language):
 
 
 def spelled(words, language):
-    point = say("lab_view.view.decimal", language)
+    point = say("browser.NumberControls.decimal", language)
     return re.sub(r"(?<=\d)\.(?=\d)", point, words)
 
 

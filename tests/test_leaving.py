@@ -24,8 +24,12 @@ from app.widgets.download import Download
 
 pytestmark = pytest.mark.served
 
-# Something on each tab except the first.
-TABS = ("planes.cards.stage", "build.bench.save", "family.map.start", "learn.view.watch")
+# What is opened, and something of it.
+PARTS = (
+    ("share", "", "share.panel.of_rolling"), ("panel", "time", "planes.keys.ledger"),
+    ("room", "build-a-top", "build.bench.save"), ("room", "families", "family.map.start"),
+    ("room", "learn", "learn.view.watch"),
+)  # fmt: skip
 PATIENCE = 300  # s
 
 
@@ -40,7 +44,6 @@ def here():
 @pytest.fixture
 def idle(monkeypatch):
     """Pages that compute nothing slow."""
-    monkeypatch.setattr("app.model.planes.planes.solve", lambda settings, look=None: None)
     monkeypatch.setattr("app.tabs.families.compare.share_map", lambda *asked: iter(()))
 
 
@@ -51,14 +54,14 @@ ORDERS = ("+0 +1 -1 +2 -2", "+0 +1 -0 +2 -2", "+0 +1 +2 -0 -1")
 
 
 async def opens(page, language, part):
-    """Shows a part that it has not shown yet, in this language: Share for 0, otherwise the tab of this number."""
+    """Shows one of PARTS, which it has not shown yet, in this language."""
     other = "en" if language == "de" else "de"
-    known, key = page.visitor.models, ("share.panel.of_rolling", *TABS)[part]
+    known, (kind, name, key) = page.visitor.models, part
     before = set(known)
-    if part:
-        await page.head("room", visitors.ROOMS[part - 1])
+    if kind == "panel":
+        await page.set(page.visitor.group("panel"), "asked", [1, "panel", name, False])
     else:
-        await page.head("share")
+        await page.head(kind, name)
 
     def said():
         return json.dumps([model for id, model in known.items() if id not in before], ensure_ascii=False)
@@ -87,7 +90,7 @@ async def come_and_go(here, order, parts):
 @pytest.mark.parametrize("turn", range(len(ORDERS)), ids=ORDERS)
 def test_who_stays_keeps_his_page_in_whichever_order_the_others_come_and_go(here, idle, turn):
     """Shows every part of the page, after one order or another."""
-    parts = range(1 + len(TABS))[turn :: len(ORDERS)]
+    parts = PARTS[turn :: len(ORDERS)]
     run(come_and_go(here, ORDERS[turn].split(), parts), PATIENCE)
 
 
@@ -130,7 +133,7 @@ async def ask_of_a_broken_server(here, monkeypatch):
     await page.set(table, "clicks", 3)  # the same file again
     await page.until(lambda: page.now(table, "file")[:2] == [2, before])
 
-    dial, known = page.visitor.find("NumberControls")[0], len(page.visitor.models)
+    dial, known = page.visitor.group("K_J"), len(page.visitor.models)
     await fails(
         page, monkeypatch, "app.model.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, "K_J", 5.5, False])
     )

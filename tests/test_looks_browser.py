@@ -5,6 +5,8 @@ import re
 import pytest
 from visiting import WHOLE
 
+from app.text import say
+
 pytestmark = pytest.mark.served
 
 LOOKS = "name => document.documentElement.dataset.look === name"
@@ -51,11 +53,13 @@ TICKS = """ticks => {
 
 def decimal_commas(page):
     """On axes, in fields, and in 3-D."""
-    page.locator(".time").first.filter(has_text=re.compile(r"^\d,\d{4} s")).wait_for()
-    field = page.locator("input[type=text]").first
+    page.locator(".clock").filter(has_text=re.compile(r"^\d+,\d\d s$")).wait_for()
+    field = page.get_by_role("textbox", name="Jellett-Konstante, in Wurzel g durch R")
     field.fill("6,5")
     field.press("Enter")
     page.wait_for_function("() => /KJ=6\\.5/.test(location.search)")
+    page.get_by_role("radio", name=say("research.panels.time", "de")).click()
+    page.locator("[data-figure=planes-theta]").wait_for()
     for given in ([-0.5, 0.1 + 0.2, 1], [0, 0.5, 1], [-2e-7, -1e-7, 0], [0, 50000, 100000], [1.0001, 1.0002], []):
         ours, theirs = page.evaluate(TICKS, given)
         assert ours == [each.replace(".", ",") for each in theirs], given

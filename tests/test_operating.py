@@ -332,9 +332,7 @@ def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
 
     async def visit():
         visitor = await Visitor.enter(f"{server.url}?tab=roll")
-        answered, _ = await visitor.answer(
-            await visitor.set(visitor.find("NumberControls")[0], "asked", [1, "K_J", 6.5, False])
-        )
+        answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "asked", [1, "K_J", 6.5, False]))
         assert answered == "OK" and "takes the place" not in server.log
         visitor.leave()
 

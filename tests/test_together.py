@@ -168,7 +168,7 @@ async def class_opens(server):
         students.append(Clocked(visitor))
         await visitor.ready()
     other, moves, lives = await visitors.come(server.url), [], []
-    [dial, *_] = other.visitor.find("NumberControls")
+    dial = other.visitor.group("K_J")
 
     async def move():
         while True:

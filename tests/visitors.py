@@ -1,4 +1,5 @@
-"""Visits a running server by websocket: visitors arrive together, move a slider, open all rooms, and leave one by one.
+"""Visits a running server by websocket: visitors arrive together, move a slider, open all panels and rooms, and leave
+one by one.
 
     python tests/visitors.py http://localhost:5006/app [VISITORS]
 
@@ -7,30 +8,44 @@ so that tests/pythons.py can run it on each Python, and anybody can check a new 
 """
 
 import asyncio
+import json
 import sys
 
 from visiting import of_roll
 from wire import Page, Visitor, run
 
 MOVES = 12  # of each visitor's slider
-ROOMS = ("three-planes", "build-a-top", "families", "learn", "lab", "maps", "measure")
-"""All rooms except Roll, where a visitor arrives, by their names in an address."""
+ROOMS = ("build-a-top", "families", "learn", "maps", "measure")
+"""All rooms except the Lab, where a visitor arrives, by their names in an address."""
+PANELS = ("surface", "time", "values", "ends", "portraits")
+"""All that the Lab shows beside its stage, except what an arrival shows."""
 PATIENCE = 300  # s
 
 
 async def come(url, language="en"):
-    """A Page that has loaded; an address without a query opens Roll."""
+    """A Page that has loaded; an address without a query opens the paper's rolling top."""
     page = Page(await Visitor.enter(of_roll(url), headers={"Accept-Language": language}))
     await page.visitor.ready()
     return page
 
 
 async def stay(page, K_J):
-    """Moves the first slider, and opens each room."""
-    dial = page.visitor.find("NumberControls")[0]
+    """Moves a slider, and opens each panel and room."""
+    dial = page.visitor.group("K_J")
     for i in range(MOVES):
         await page.set(dial, "asked", [i + 1, "K_J", K_J + 0.05 * i, False])
+    await open_panels(page)
     await open_rooms(page)
+
+
+async def open_panels(page):
+    """Opens one panel after the other, and waits until each has its content."""
+    switch = page.visitor.group("panel")
+    for i, panel in enumerate(PANELS):
+        known = len(page.visitor.models)
+        await page.set(switch, "asked", [i + 1, "panel", panel, False])
+        await page.until(lambda panel=panel: json.loads(page.now(switch, "state"))["values"]["panel"] == panel)
+        await page.until(lambda known=known: len(page.visitor.models) > known)
 
 
 async def open_rooms(page):
@@ -68,7 +83,10 @@ def main(url, count=8):
     except Exception as error:
         print(f"{type(error).__name__}: {error}")
         return 1
-    print(f"{count + 1} visitors came, moved a slider {MOVES} times each, opened all {len(ROOMS) + 1} rooms, and left")
+    print(
+        f"{count + 1} visitors came, moved a slider {MOVES} times each, "
+        f"opened all {len(PANELS) + 1} panels and {len(ROOMS) + 1} rooms, and left"
+    )
     return 0
 
 

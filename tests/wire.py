@@ -102,6 +102,12 @@ class Visitor:
         return [id for id, (name, attributes) in self.models.items()
                 if re.fullmatch(kind + r"\d*", name) and all(each in attributes for each in names)]  # fmt: skip
 
+    def group(self, name):
+        """The id of the group of inputs that has this one."""
+        [found] = [id for id in self.find("NumberControls", "parts")
+                   if re.search(f'"name": "{name}"', self.models[id][1]["parts"])]  # fmt: skip
+        return found
+
     def component(self, kind):
         """The id of the first Panel component whose data model has this type, or None."""
         data = self.find(kind)

@@ -40,8 +40,12 @@ TABS = {"learn": ("learn",), "lab": (room.FIRST,), "build": ("build-a-top",), "m
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
 BESIDE = """
 :host { min-height: max-content } .scroll-button { display: none !important }
-@media (min-width: 1200px) { :host { display: grid; align-items: start; grid-template-columns: var(--columns) } }
+@media (min-width: 1200px) {
+  :host { display: grid; align-items: start; grid-template-columns: var(--columns); --stays: var(--beside) }
+}
 """
+# The Lab stays in sight while what is beside it scrolls.
+STAYS = {"position": "var(--stays, static)", "top": "calc(48px * var(--type, 1))"}
 COLUMNS = {True: "minmax(0, 57fr) minmax(0, 43fr)", False: "minmax(0, 1fr)"}
 DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
@@ -116,19 +120,21 @@ class House:
         tab = lab_view(self.lab_of, lambda: self.rests(), research=lambda: self._look_at(level=LEVELS[1]),
                        why=lambda: self._explain(**WHY), why_not=lambda: self._explain(**WHY_NOT))  # fmt: skip
         together(self.playing, tab.view)
+        tab.view.styles = STAYS
         view = pn.Column(tab.view, sizing_mode="stretch_width", margin=0, stylesheets=[BESIDE])
         research = []
 
         def show(*events):
             if not self._explores() and not research:
                 research.append(self._research())
-                view.append(research[0].view)
             tab.view.level = self._level
             for each in research:
                 each.view.visible = not self._explores()
                 each.open = not self._explores()
+                if each.view not in view:  # only now, because a group of inputs is drawn with its values
+                    view.append(each.view)
             is_beside = not self._explores() and self.explorer.table != "three"
-            view.styles = {"--columns": COLUMNS[is_beside]}
+            view.styles = {"--columns": COLUMNS[is_beside], "--beside": "sticky" if is_beside else "static"}
 
         self._at_levels(lambda explores: show())
         self.explorer.param.watch(show, "table")

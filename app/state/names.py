@@ -135,7 +135,7 @@ def is_local(host):
 
 def link(**texts):
     """The query of a link that the page offers, of names that it knows."""
-    unknown = texts.keys() - NAMES.keys() - {VOTE}
+    unknown = texts.keys() - NAMES.keys()
     if unknown:
         raise LookupError(f"no such name in an address: {', '.join(unknown)}")
     return query({VERSION_NAME: str(VERSION)} | texts)

@@ -27,23 +27,9 @@ from tippe_core import Outcome, TopError, outcome, strongest_friction
 from tippe_core.types import Array
 
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
-WATCHED = (
-    "table",
-    "shape",
-    "a",
-    "I1",
-    "I3",
-    "given",
-    "spin",
-    "tilt",
-    "slip",
-    "theta_dot",
-    "omega2",
-    "law",
-    *NUMBERS,
-    "landing",
-    "stem",
-)
+OF_TOP = ("a", "I1", "I3")
+WATCHED = ("table", "shape", *OF_TOP, "given", "spin", "tilt", "slip", "theta_dot", "omega2", "law", *NUMBERS,
+           "landing", "stem")  # fmt: skip
 Inputs = tuple[str, Setup]
 FIRST: Inputs = SHIPS
 IN_LAB = {"mu_k": "mu", "friction": "mu", "radius": "patch"}
@@ -197,7 +183,16 @@ class Lab(param.Parameterized):
             slip = start.slip if start.given == "hand" else 1.0
             found = {"given": "hand", "spin": start.spin, "tilt": start.tilt, "slip": slip} | found
         found.pop("toy", None)
-        start.later(**found)
+        start.later(**(self._back if self._fault else {}) | found)
+
+    @property
+    def _fault(self) -> TopError | None:
+        """Why the Start has no Setup."""
+        try:
+            self.start.setup  # noqa: B018
+        except TopError as error:
+            return error
+        return None
 
     @property
     def reached(self) -> float:
@@ -264,9 +259,10 @@ class Lab(param.Parameterized):
         faults = {name: said for name, value in values.items() if (said := fault(name, value, POSSIBLE))}
         self.refused |= {name: values[name] for name in faults}
         self.nearest |= {name: near for name in faults if (near := nearest(name, values[name])) is not None}
-        try:
-            self.start.setup  # noqa: B018
-        except TopError as error:
+        error = self._fault
+        if error is not None and (error.name in OF_TOP or self.start.given != "hand"):
+            return  # an input that is not the Lab's; its own control says why, and keeps the value until it is changed
+        if error is not None:
             faults["tilt"] = _sentence(error)  # which any start by hand has
         if faults:  # they came from a link, or from another room
             self._messages |= faults

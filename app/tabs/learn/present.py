@@ -11,7 +11,7 @@ from app.model.lesson import lesson
 from app.model.lesson.parts import Choice
 from app.model.votes.ballots import Away
 from app.model.votes.classroom import Refused
-from app.state.names import VOTE, is_local, link
+from app.state.names import VOTE, is_local, query
 from app.tabs.learn.poll import Counter, asked_of, page_address, refusal
 
 BINS = 12
@@ -134,7 +134,7 @@ class Teacher:
         if room is None:
             self._show({"said": sentence} if sentence else {})
             return
-        address = page_address() + link(**{VOTE: room.code})
+        address = page_address() + query({VOTE: room.code})
         # nobody sees the votes of others before the answer is shown
         found = counts(lesson.OF_NAME[room.step], list(room.votes)) if room.shown else []
         self._show({

@@ -34,6 +34,7 @@ class Group {
     this.asking.count = JSON.parse(model.state).answered ?? 0;
     this.leaves = followLook(this.frame);
     this.build();
+    this.show();
   }
 
   ask = (name, wish, typed = false) => {
@@ -53,7 +54,6 @@ class Group {
       this.parts.set(given.name ?? given.choice?.name, made);
       return made;
     }));
-    this.show();
   };
 
   heading({ text, choice }) {
@@ -61,7 +61,7 @@ class Group {
   }
 
   choice(given) {
-    return part("div", { class: "choice" }, this.buttons(given));
+    return part("div", { class: "choice", "data-input": given.name }, this.buttons(given));
   }
 
   buttons({ name, label, options }) {
@@ -114,7 +114,10 @@ export function renderNumberControls({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const group = new Group({ model, el, view });
   model.on("state", group.show);
-  model.on("parts", group.build);
+  model.on("parts", () => {
+    group.build();
+    queueMicrotask(group.show); // the state of these parts comes after them, in the same message
+  });
   view.tippe = { dispose: () => group.leave() };
   model.on("remove", () => group.leave());
 }

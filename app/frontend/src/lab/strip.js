@@ -93,10 +93,13 @@ export class Strip {
     this.draw();
   }
 
-  // Short where there is little room.
+  // Short where there is little room. The list is as wide as its longest words, because a plot that became narrower
+  // while the speed changes would leave the hand on it.
   writeSpeeds() {
-    const { texts, width } = this;
-    SPEEDS.forEach((_, i) => (this.speed.options[i + 1].text = (width < NARROW ? texts.short_speeds : texts.speeds)[i]));
+    const { texts, speed } = this, isNarrow = this.width < NARROW, names = isNarrow ? texts.short_speeds : texts.speeds;
+    SPEEDS.forEach((_, i) => (speed.options[i + 1].text = names[i]));
+    const longest = Math.max(...names.map((name) => say(texts, texts.automatic, { speed: name }).length));
+    speed.style.minWidth = isNarrow ? "" : `calc(${longest}ch + 2em)`;
   }
 
   draw() {

@@ -1,13 +1,13 @@
-// The tour of Roll, on request: one part of the page after the other, with words beside it.
+// The tour of the Lab's research, on request: one part of the page after the other, with words beside it.
 import { fill } from "../data.js";
 import { find } from "./finding.js";
 
 // The parts, in the order of their words.
 const STOPS = [
-  "[data-picture=top] canvas",
-  "input[data-input=K_J]",
-  "[data-figure=plane]",
-  "[data-picture=surface] canvas",
+  ".lab .stage",
+  ".ctl:has([data-input=K_J])",
+  ".plane",
+  ".choice[data-input=panel]",
   "[role=tablist]",
 ];
 const PLACED_MS = 200; // ms: the layout of the page may still be changing
@@ -37,10 +37,6 @@ export function beside(box, { wide, high }, page) {
   const [, , left, top] = rooms.find(([room, needs]) => room > needs + 2 * GAP) ?? rooms[farther];
   return { left: inside(left, page.wide - wide), top: inside(top, page.high - high) };
 }
-
-// What the ring surrounds: for a slider, its whole control, so that the ring cuts through no label.
-/** @param {HTMLElement} target @returns {Element} */
-const framed = (target) => (target.matches("input") && target.getRootNode() instanceof ShadowRoot ? /** @type {ShadowRoot} */ (target.getRootNode()).host : target);
 
 export class Tour {
   /** @param {Record<string, any>} texts @param {ShadowRoot} over a layer above the page @param {AbortSignal} signal */
@@ -101,7 +97,7 @@ export class Tour {
     const { stop, ring } = this;
     if (stop.hidden) return;
     if (!this.target?.isConnected) this.target = find(STOPS[this.at]);
-    const seen = this.target && framed(this.target).getBoundingClientRect(), box = seen && seen.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop;
+    const seen = this.target?.getBoundingClientRect(), box = seen && seen.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop;
     ring.hidden = !box;
     if (!box) return Object.assign(stop.style, { left: `${(innerWidth - wide) / 2}px`, top: `${innerHeight - high - GAP}px` });
     Object.assign(ring.style, { left: `${box.left - 6}px`, top: `${box.top - 6}px`, width: `${box.width + 12}px`, height: `${box.height + 12}px` });
