@@ -196,7 +196,8 @@ class Research(param.Parameterized):
             says.object = ball_words(scene)
 
         def pane(figure, height):
-            return pn.pane.Bokeh(figure, sizing_mode="stretch_width", height=height, margin=0)
+            shown = pn.pane.Bokeh(figure, sizing_mode="stretch_both", margin=0)
+            return pn.Column(shown, sizing_mode="stretch_width", height=height, margin=0)
 
         def head(name):
             return words(f'<h2>{say(f"planes.cards.{name}")}</h2><div class="key">{say(f"planes.keys.{name}")}</div>')
