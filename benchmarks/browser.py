@@ -15,8 +15,7 @@ input from Chromium itself, while the top plays:
     drag   the mouse pulls the slider to and fro, RATE moves a second
 
 An input counts as painted in the first frame that shows its value or a later one's: of the figure under the hand (the
-selected tieline of Fig. 6), and of the whole page (that, the plots over time, the top in 3-D, and Fig. 5 where it is
-seen). Results of runs are kept below.
+selected tieline of Fig. 6), and of the whole page (that, and the top on its table). Results of runs are kept below.
 """
 
 import argparse
@@ -66,7 +65,6 @@ WATCH = """
   const slider = models.find((m) => m.type.includes("Slider") && m.value == 7)
   const hand = ours ? dial.properties.asked : slider.properties.value
   const value = () => ours ? dial.asked[2] : slider.value
-  const view = (name) => Bokeh.index.find_one(models.find((m) => m.name == name && m.renderers))
   hand.change.connect(() => bench.inputs.push([window.event?.timeStamp ?? performance.now(), value()]))
   const painted = (part, value) => {
     const channel = new MessageChannel()
@@ -74,25 +72,21 @@ WATCH = """
     channel.port1.postMessage(0)
   }
   if (!ours) {
-    const plane = view("plane"), {data_source} = plane.model.renderers[0]
+    const plane = Bokeh.index.find_one(models.find((m) => m.name == "plane")), {data_source} = plane.model.renderers[0]
     plane.repainted.connect(() => ["figure", "page"].forEach((part) => painted(part, data_source.data.value[0])))
     return
   }
   const {plane} = window.__tippe
   const moved = new MutationObserver(() => painted("figure", Number(plane.selected.K_J.toFixed(9))))
   moved.observe(plane.bar, {attributes: true})
-  // The page is as old as its oldest part: the plots over time, the top in 3-D, and the motion in Fig. 5.
-  const motion = view("constants").model.renderers[0].data_source
-  const {top3d, surface3d} = window.__tippe
-  const isFloor = (value) => !surface3d?.pictures || Math.abs(surface3d.selected - value) < 1e-5
+  // The page is as old as the top on its table, whose motion comes after Fig. 6 has it, in another message.
+  const {top3d} = window.__tippe, lab = models.find((m) => m.data?.properties?.frames_rough).data
   let waiting = []
-  motion.properties.data.change.connect(() => waiting.push(
-    {value: Number(motion.data.K_J[0].toFixed(9)), motions: top3d.motions.received}))
-  view("constants").repainted.connect(() => { for (const sent of waiting) sent.plots = true })
+  lab.properties.frames_rough.change.connect(() => waiting.push(
+    {value: Number(plane.selected.K_J.toFixed(9)), motions: top3d.motions.received}))
   const look = () => {
     requestAnimationFrame(look)
-    const whole = waiting.findLastIndex(
-      (sent) => sent.plots && top3d.motions.shown >= sent.motions && isFloor(sent.value))
+    const whole = waiting.findLastIndex((sent) => top3d.motions.shown > sent.motions)
     if (whole < 0) return
     painted("page", waiting[whole].value)
     waiting = waiting.slice(whole + 1)

@@ -71,10 +71,11 @@ class Active(Page):
     def __init__(self, visitor):
         super().__init__(visitor)
         self.moved, self.times = None, []
-        self.lab, self.dial, self.slider = (visitor.find(kind) for kind in ("LabView", "Dial", "Slider"))
+        self.lab, self.groups, self.slider = (visitor.find(kind) for kind in ("LabView", "NumberControls", "Slider"))
 
     def heard(self, content):
-        whole = not self.lab or any(event.get("attr") == "frames_ordinary" for event in content["events"])
+        frames = "frames_rough" if self.groups else "frames_ordinary"
+        whole = not self.lab or any(event.get("attr") == frames for event in content["events"])
         if self.moved is not None and whole:
             self.times.append(time.monotonic() - self.moved)
             self.moved = None
@@ -84,11 +85,11 @@ class Active(Page):
         if self.moved is not None:
             self.times.append(time.monotonic() - self.moved)
         self.moved = time.monotonic()
-        if self.lab:
+        if self.groups:  # of the level "Research"
+            await self.visitor.set(self.visitor.group("K_J"), "asked", [len(self.times), "K_J", value, False])
+        elif self.lab:
             spin = 20 + 0.1 * len(self.times)
             await self.visitor.set(self.lab[0], "asked", [len(self.times) + 1, "spin", round(spin, 1)])
-        elif self.dial:
-            await self.visitor.set(self.dial[0], "asked", [len(self.times), "K_J", value, False])
         else:
             await self.visitor.set(self.slider[0], "value", value)
 

@@ -21,10 +21,19 @@ import visitors
 from serving import serving
 from visiting import PATIENCE, Visit, go_to, launch
 
+sys.path.insert(0, str(Path(__file__).parent.parent))
+from app.text import say
+
 ROOT = Path(__file__).parent.parent
 FIRST, LAST = 11, 14  # of Python 3; missing ones among these are reported
 SHOWN = ("panel", "bokeh", "param", "panel-material-ui", "numpy", "scipy", "tornado", "matplotlib", "segno", "numba")
 VISITORS = 4
+# Whether a panel of the Lab has its content.
+CHOSEN = """panel => {
+    const [doc] = Bokeh.documents, models = [...doc._all_models.values()]
+    const [group] = models.filter(({data}) => data?.parts?.includes('"panel"'))
+    return JSON.parse(group.data.state).values.panel == panel && doc.is_idle
+}"""
 # Whether a room has replaced the sentence that it is being created.
 STANDS = """([place, waits]) => {
     const [doc] = Bokeh.documents, {children} = doc.get_model_by_name(place)
@@ -71,12 +80,16 @@ def look(url, browser):
     page = browser.new_page(viewport={"width": 1400, "height": 900})
     try:
         visit = Visit(page, url)
-        rooms = ("Three planes", "Build a top", "Families", "Learn", "Lab", "Maps", "Measure")  # visit is at Roll
+        for panel in visitors.PANELS:
+            page.get_by_role("radio", name=say(f"research.panels.{panel}", "en"), exact=True).click()
+            page.wait_for_function(CHOSEN, arg=panel)
+        rooms = ("Build a top", "Families", "Learn", "Maps", "Measure")  # visit is in the Lab
         for room, name in zip(rooms, visitors.ROOMS, strict=True):
             waits = page.evaluate("n => Bokeh.documents[0].get_model_by_name(n).children[0].id", f"place-of-{name}")
             go_to(page, room)
             page.wait_for_function(STANDS, arg=[f"place-of-{name}", waits], timeout=PATIENCE)
-        print(f"    Chromium: {len(rooms)} rooms opened, {len(visit.errors)} errors in the page", *visit.errors)
+        print(f"    Chromium: {len(visitors.PANELS)} panels and {len(rooms)} rooms opened, "
+              f"{len(visit.errors)} errors in the page", *visit.errors)  # fmt: skip
         return not visit.errors
     except Exception as error:
         print(f"    Chromium: {type(error).__name__}: {error}")
