@@ -12,7 +12,7 @@ from visiting import IN_SIGHT, PIXEL, Visit, entry, open_panel, wait
 from app.model.explorer import Explorer
 from app.model.lab.lab import scene_of
 from app.model.scene import solve
-from tippe_core import PRESETS, Top, grip, roll
+from tippe_core import PRESETS, Top, glide, grip, roll, slide
 
 pytestmark = pytest.mark.served
 
@@ -170,12 +170,17 @@ def test_three_tables_side_by_side_go_by_one_clock(chromium, server):
         page = visit.page
         page.wait_for_function(f"window.__tippe?.tops && {TOPS}.length == 3")
         seek(page, 40.0)
-        unit = motions["ordinary"].start.scales.time
-        for label, table in (("ordinary", "ordinary"), ("rough", "rough"), ("ice", "ice")):
-            moved = motions[table].trajectory
-            index = int(np.searchsorted(moved.t, 40.0))
-            near = page.evaluate(f"label => {TOPS}.find((top) => top.label.includes(label)).quaternion", label)
-            assert max(abs(np.array(near) @ moved.quaternion[i]) for i in (index - 1, index)) > 0.9
+        start = motions["ordinary"].start
+        unit, t = start.scales.time, [0.0, 40.0]
+        gripped, _ = grip(start.top, start.state)
+        poses = {"ordinary": slide(start.top, start.state, start.friction, t), "ice": glide(start.top, start.state, t),
+                 "rough": roll(start.top, None, t, gripped)}  # fmt: skip
+        for label, moved in poses.items():
+            page.wait_for_function(
+                f"""([label, q]) => {TOPS}.filter((top) => top.label.includes(label)).some((top) =>
+                    Math.abs(top.quaternion.reduce((sum, x, i) => sum + x * q[i], 0)) > 1 - 1e-4)""",
+                arg=[label, moved.quaternion[-1].tolist()],
+            )
         page.wait_for_function(
             f"t => {MODELS}.filter((m) => m.type == 'Span' && Math.abs(m.location - t) < 1e-4).length == 6",
             arg=40.0 * unit,
@@ -194,8 +199,7 @@ def test_the_panels_show_what_happened_and_an_example_sets_top_start_and_law(chr
         open_panel(page, "Values")
         page.get_by_role("button", name=re.compile(r"^1\.47 s\s*stands on its stem")).click()
         unit = np.sqrt(0.015 / 9.81)  # s of this toy
-        page.wait_for_function("t => Math.abs(__tippe.top3d.t - t) < 0.05", arg=1.471 / float(unit))
-        page.get_by_text(re.compile("Take this run as one of many")).wait_for()
+        page.wait_for_function("t => Math.abs(__tippe.top3d.t - t) < 0.3", arg=1.471 / float(unit))
         page.locator("summary", has_text="details of its friction").click()
         page.get_by_label("An example", exact=True).select_option("Top S hangs")
         expect(page.get_by_label("Spin, in turns a second", exact=True)).to_have_value("9.5")
