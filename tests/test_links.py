@@ -32,7 +32,7 @@ def compared(what):
     """What is compared: of a link whose start or body is impossible, all but the default start in their place, which
     is now that of the arrival on every page."""
     said = what.get("said", "")
-    if "not possible" in said or "body " in said:
+    if "not possible" in said or "body " in said or "this link has" in said.lower():
         return {name: what[name] for name in ("language", "said", "room", "level") if name in what}
     return what
 
