@@ -152,18 +152,6 @@ def pacer(monkeypatch):
     return Pacer(Explorer())
 
 
-def test_of_many_wishes_for_another_view_model_the_newest_is_granted(pacer):
-    """Like the Explorer's scenes: two are on their way to the browser, and the others wait until one is painted."""
-    playing, set_to = Playing(), []
-    playing.param.watch(lambda event: set_to.append(event.new), "speed")
-    ask = pacer.ask_of(playing.param.update)
-    for speed in (0.1, 0.2, 0.3, 0.4, 0.5):
-        ask(speed=speed)
-    assert set_to == [0.1, 0.2]
-    pacer.painted.painted = 1
-    assert set_to == [0.1, 0.2, 0.5]
-
-
 def test_what_shows_a_scene_shows_the_present_one_at_once(pacer):
     """So that a view can be created at any time."""
     shown = []

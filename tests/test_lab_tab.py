@@ -122,6 +122,17 @@ def test_another_table_has_its_own_motion_and_the_same_start(tab):
     assert not tab.view.keeps_ice
 
 
+def test_at_research_a_value_says_what_it_means_for_this_top(tab):
+    """Let go with G at rest, the ball's lowest point moves at omega R sin(tilt)."""
+    assert shown(tab)["notes"] == {}
+    tab.view.level = "research"
+    speed = 100 * 2 * np.pi * 28.65 * 0.015 * np.sin(np.radians(5.73))
+    assert f"slips at {speed:.3g} cm/s" in shown(tab)["notes"]["slip"]
+    assert shown(tab)["rubs"][-1][0] == "slip" and "stable" in shown(tab)["notes"]["spin"]
+    tab.view.level = "explore"
+    assert [name for name, *_ in shown(tab)["rubs"]] == ["patch"]
+
+
 def test_the_papers_figures_are_asked_for(tab):
     wish(tab, 1, "research", 1)
     assert "research" in tab.done

@@ -17,10 +17,3 @@ def pulled(scene: Scene, grip: str, theta: float, K_J: float, limit: str) -> dic
     at = np.array(min(max(theta, 0.0), np.pi))
     E = least_energy(at, scene.top, K_J, scene.inputs["K_R"])
     return {"K_J": K_J, "E": float(E), "given": "E"}
-
-
-def held(scene: Scene, t: float) -> dict[str, float]:
-    """The inputs that stay unchanged while the axis, grabbed at the time t, is tilted."""
-    motion = scene.rolling(np.array([0.0, t]))
-    w1, w2, w3 = (float(each) for each in motion.omega[1])
-    return {"theta_dot": w1, "omega2": w2, "omega3": w3, "phi": float(motion.phi[1]), "psi": float(motion.psi[1])}

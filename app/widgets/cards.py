@@ -23,10 +23,8 @@ FIELD = {
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
 )
-TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # two figures, one above the other
 # The stage beside the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
-WIDE = "@media (min-width: 1000px)"
 STAGED = """
 :host { display: flex; flex-direction: column; gap: 12px; padding: 0 12px 12px; min-height: max-content }
 @media (min-width: 1000px) {
@@ -47,7 +45,6 @@ FIRST = """
 @media (max-width: 700px) { :host { height: 330px !important } }
 @media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
 """.replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)")
-UNSEEN = ":host { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%) }"
 # A name, a note, and an error, wherever they are.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
@@ -170,15 +167,6 @@ def first(made, below=0):
     """Makes a card the first of a stage; below: the height in px of the other cards of the stage, with the gaps."""
     made.styles = made.styles | {"--below": f"{below}px"}
     made.stylesheets = [*made.stylesheets, FIRST.replace("HEAD", HEAD)]
-    return made
-
-
-def framed(title, *content):
-    """A card that shows only its picture, on which the choice of table lies. title: for screen readers."""
-    made = card(title, *content)
-    made[0].stylesheets = [*made[0].stylesheets, UNSEEN]
-    made.styles = made.styles | {"padding": "0", "border-radius": "6px", "box-shadow": "none",
-                                 "background": "var(--mui-palette-background-default, white)"}  # fmt: skip
     return made
 
 

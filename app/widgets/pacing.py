@@ -46,7 +46,6 @@ class Pacer:
         self.painted = Painted(width=0, height=0, margin=0)
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
-        self._others = {}  # functions that take inputs of another view-model -> the inputs that are requested
         self._single = True  # whether the hand was at rest before the last request
         self._said = None  # the scene that was shown to "rest" since then
         self._stayed = explorer.scene  # the scene that was last shown to "still"
@@ -104,17 +103,6 @@ class Pacer:
             after(REST_AFTER, self._rest)
         self._advance()
 
-    def ask_of(self, take):
-        """A function that requests inputs, which take(**inputs) receives in turn with those that ask() sends to the
-        Explorer."""
-        return partial(self._ask_other, take)
-
-    def _ask_other(self, take, **inputs):
-        self._others.setdefault(take, {}).update(inputs)
-        self._advance()
-        if self._others:
-            after(ANSWER_WITHIN, self._finish)
-
     def _advance(self):
         late = time.monotonic() - ANSWER_WITHIN
         self._hands = [sent for sent in self._hands if sent[1] > late]
@@ -122,10 +110,6 @@ class Pacer:
         if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
             inputs, self._wanted = self._wanted, {}
             set_together(self._explorer, **inputs)
-        if self._others and len(self._hands) < HANDS_IN_FLIGHT:
-            others, self._others = self._others, {}
-            for take, inputs in others.items():
-                self._send(partial(take, **inputs), self._hands)
         if not self._drawing and not (self._single and self._hands):
             if not self._round and self._round_is_due:
                 scene, self._round_is_due = self._explorer.scene, False
@@ -180,7 +164,7 @@ class Pacer:
             _each(self._shows["still"], scene)
 
     def _finish_later(self):
-        if self._round or self._round_is_due or self._others or (self._begun and self._later):
+        if self._round or self._round_is_due or (self._begun and self._later):
             after(ANSWER_WITHIN, self._finish)
 
     def _finish(self):

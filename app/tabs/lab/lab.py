@@ -22,7 +22,7 @@ from app.model.setup import OF_LAW, shape_of
 from app.state import asked
 from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
-from app.tabs.lab.words import is_caught
+from app.tabs.lab.words import is_caught, notes
 from app.text import listed, say, speaking, spoken
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
@@ -263,6 +263,7 @@ class LabTab:
             },
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
+            "notes": notes(scene) if self.view.level != LEVELS[0] else {},
             "caught": ordinary is not None and is_caught(ordinary),
             "touches": start.shape is not None and start.shape.touch_angle is not None,
             "R": 1e3 * start.scales.R,

@@ -52,6 +52,21 @@ def happens(event, settings):
 # ---- how the motion ended ----
 
 
+def notes(scene):
+    """{input: what its value means for this top, as HTML}."""
+    start, motion = scene.start, scene.motions["ordinary"]
+    limits, velocity, found = scene.outcome.thresholds, start.scales.velocity, {}
+    holds = {f"upright_{limits.upright.stable}": limits.upright.spin, "inverted_above": limits.launch}
+    says = [say(f"planes.notes.{which}", spin=spin * start.turns) for which, spin in holds.items() if np.isfinite(spin)]
+    if says:
+        found["spin"] = say("planes.notes.spins", stable="; ".join(says))
+    if motion is not None:
+        found["slip"] = say("planes.notes.slip", speed=100 * velocity * motion.slip[0])
+    found["eps"] = say("planes.notes.eps", speed=100 * velocity * start.eps)
+    found["gamma"] = say("planes.notes.gamma", gamma=start.gamma / velocity)
+    return found
+
+
 def is_caught(motion):
     """Whether Coulomb's law at a point held the top before it was past 90 degrees, and it rolls on."""
     if not isinstance(motion.start.friction, Coulomb):
@@ -157,11 +172,3 @@ def drift_words(name, motion):
                    changes=changes)  # fmt: skip
         return f'<span class="kept">{say("planes.drift.stays", power=power(alone))}</span>{then}'
     return changes
-
-
-def stem_words(settings):
-    if settings.shape is None:
-        return say("planes.stem.apart")
-    angle = settings.shape.touch_angle
-    return say("planes.stem.never") if angle is None else say("planes.stem.past", angle=degrees(angle),
-                                                                         part=part(settings))  # fmt: skip

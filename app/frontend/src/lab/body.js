@@ -26,6 +26,7 @@ export class Body {
     }
     for (const control of this.parts) {
       control.show(state, ahead);
+      control.note(state.notes[control.name] ?? "");
       if (state.messages[control.name]) this.element.open = true;
     }
   }
