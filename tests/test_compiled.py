@@ -335,18 +335,18 @@ from app.model.families import family
 from app.model.lesson import lesson
 from app.model.explorer import Explorer
 from app.model.families.known_tops import known_tops
-from app.model.planes.planes import Planes
+from app.model.lab.lab import Lab
 from app.model.setup import LAWS
 explorer = Explorer()
 for step in lesson.STEPS:
     step.answer(lesson.planned(step, explorer.scene))
-explorer.param.update(given="hand", spin=20.0, tilt=10.0, seconds=0.5)
-planes = Planes(explorer)
-planes.show()
+explorer.param.update(given="hand", spin=20.0, tilt=10.0, table="three")
+lab = Lab(start=explorer)
+lab.show()
 for law in LAWS:
-    planes.ask(law=law)
-    planes.ask(by="constants")
-    planes.ask(by="spin", spin=20.0)
+    lab.ask(law=law)
+    explorer.given = "state"
+    lab.ask(spin=20.0)
 for top in known_tops():
     top.shown(0.5)
 next(family.share_map(0.4, 10.0, 0.5, [0.1, -0.2], [1.0, 1.1]))

@@ -198,7 +198,7 @@ def presented(page):
     """Goes from the lesson to the big screen through what is for teachers; axe-core sees all that there is."""
     page.locator(".crumbs button").nth(1).wait_for()
     check(page, "learn", DARK)
-    page.get_by_role("radio", name="The derivation", exact=True).click()
+    page.get_by_role("button", name="The derivation", exact=True).click()
     page.locator(".line .sides b").first.wait_for()
     page.locator(".line button:visible").first.click()
     check(page, "the derivation")

@@ -59,7 +59,7 @@ async def opens(page, language, part):
     known, (kind, name, key) = page.visitor.models, part
     before = set(known)
     if kind == "panel":
-        await page.set(page.visitor.group("panel"), "asked", [1, "panel", name, False])
+        await page.set(page.visitor.choice("which"), "value", name)
     else:
         await page.head(kind, name)
 

@@ -108,6 +108,13 @@ class Visitor:
                    if re.search(f'"name": "{name}"', self.models[id][1]["parts"])]  # fmt: skip
         return found
 
+    def choice(self, value):
+        """The id of the choice by buttons that has this value."""
+        [found] = [
+            id for id in self.find("Choice", "options") if f'"{value}"' in json.dumps(self.models[id][1]["options"])
+        ]
+        return found
+
     def component(self, kind):
         """The id of the first Panel component whose data model has this type, or None."""
         data = self.find(kind)
