@@ -6,7 +6,7 @@ from visiting import Visit
 
 from app.model.setup import TOYS
 
-TOPS = "__tippe.tops('lab')"
+TOPS = "(window.__tippe?.tops('lab') ?? [])"
 TIME = "Number(window.__tippe.time('lab'))"
 DRAWN = "window.__tippe?.tops?.('lab').some((top) => top.pictures && top.count)"
 UNIT = TOYS["Leine and Glocker's toy"].shape.scales.time  # s

@@ -15,7 +15,7 @@ def level(page, name):
 
 
 def table(page):
-    return page.locator(".rooms [role=radio][aria-checked=true]")
+    return page.locator(".stage .switch [role=radio][aria-checked=true]")
 
 
 def test_rooms_and_steps_of_the_lesson_are_entries_of_the_history(server, chromium):
@@ -52,9 +52,8 @@ def test_explore_research_explore_changes_nothing(server, chromium):
         expect(undo).to_be_enabled()
         level(page, "Research")
         expect(table(page)).to_have_text("Ordinary")
-        sliding = page.locator("input[type=range][data-input=mu]")
-        expect(sliding).to_have_value("0.12")
-        expect(sliding).to_be_visible()
+        expect(entry(page, "Friction").first).to_have_value("0.12")
+        expect(page.get_by_role("radio", name="Over time", exact=True)).to_be_visible()
         level(page, "Explore")
         expect(entry(page, "Friction").first).to_have_value("0.12")
         expect(ghost).to_be_visible()
