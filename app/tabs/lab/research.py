@@ -173,6 +173,7 @@ class Research(param.Parameterized):
                              for t, seconds, word, more in moments(scene.motions[table])]  # fmt: skip
             kept.object = table_words(scene)
             of_run.object = f'<div class="key">{run_words(scene.start, table)}</div>'
+            self.rolling.say(self._lab.start.scene if scene.table == "rough" else None)
             scatters.object = ""
             motion = scene.motions["ordinary"]
             if hits(motion):
@@ -185,7 +186,7 @@ class Research(param.Parameterized):
                 raise growth
 
         title = words(f"<h2>{say('planes.moments.title')}</h2>")
-        return [title, happened, scatters, kept, of_run, self.rolling.kept], {"lab": show, "rest": self.rolling.say}
+        return [title, happened, scatters, kept, of_run, self.rolling.kept], {"lab": show}
 
     def _make_ends(self):
         well, tops, says = Well(), Map(self._pick, self._choose), words()

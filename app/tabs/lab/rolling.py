@@ -110,8 +110,8 @@ class Rolling:
         return [switch.view for switch in switches], {"pictures": draw}
 
     def say(self, scene):
-        """Says what a unit of time is, and how well the constants are conserved."""
-        self.kept.text = unit_words(scene) + kept_words(scene)
+        """Says what a unit of time is, and how well the constants of a rolling motion are conserved; nothing of None."""
+        self.kept.text = unit_words(scene) + kept_words(scene) if scene else ""
 
     # ---- requests by hand ----
 

@@ -55,11 +55,7 @@ def happens(event, settings):
 def notes(scene):
     """{input: what its value means for this top, as HTML}."""
     start, motion = scene.start, scene.motions["ordinary"]
-    limits, velocity, found = scene.outcome.thresholds, start.scales.velocity, {}
-    holds = {f"upright_{limits.upright.stable}": limits.upright.spin, "inverted_above": limits.launch}
-    says = [say(f"planes.notes.{which}", spin=spin * start.turns) for which, spin in holds.items() if np.isfinite(spin)]
-    if says:
-        found["spin"] = say("planes.notes.spins", stable="; ".join(says))
+    velocity, found = start.scales.velocity, {}
     if motion is not None:
         found["slip"] = say("planes.notes.slip", speed=100 * velocity * motion.slip[0])
     found["eps"] = say("planes.notes.eps", speed=100 * velocity * start.eps)

@@ -43,7 +43,6 @@ export class Controls {
     this.launch.show(scene);
     this.law.show(state);
     for (const fold of this.folds) fold.show(state, ahead);
-    this.parts[0].note(state.notes.spin ?? "");
     this.parts[2].note(state.law);
     for (const [i, control] of this.parts.entries()) {
       // ice has no friction to set, and nothing slips on the rough table; three tables share one slider
