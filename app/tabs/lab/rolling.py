@@ -110,7 +110,7 @@ class Rolling:
         return [switch.view for switch in switches], {"pictures": draw}
 
     def say(self, scene):
-        """Says what a unit of time is, and how well the constants of a rolling motion are conserved; nothing of None."""
+        """Says what a unit of time is, and how well the constants of a rolling motion stay; nothing of None."""
         self.kept.text = unit_words(scene) + kept_words(scene) if scene else ""
 
     # ---- requests by hand ----
