@@ -79,9 +79,13 @@ class LabScene:
         return self._story.stages
 
     @property
+    def watched(self) -> str:
+        """The table whose motion is read: the one that is shown; if all three are, the ordinary one."""
+        return "ordinary" if self.table == "three" else self.table
+
+    @property
     def _story(self) -> Story:
-        table = "ordinary" if self.table == "three" else self.table
-        short = say("lab.caption.refused")
+        table, short = self.watched, say("lab.caption.refused")
         return self.stories.get(table) or Story((), (Stage(0.0, short, self.refused[table], short),), short)
 
 

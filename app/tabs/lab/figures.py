@@ -103,7 +103,7 @@ class Figures:
             self.figures[name].y_range.update(start=low - pad, end=high + pad)
         row = TABLES.index(scene.table) if scene.table in TABLES else None
         self.figures["regime"].y_range.update(start=row or 0, end=len(TABLES) if row is None else row + 1)
-        motion = scene.motions[scene.table if scene.table in TABLES else "ordinary"]
+        motion = scene.motions[scene.watched]
         if motion is None:
             self.energies.data = {name: [] for name in ("t", *LEDGER)}
             return
@@ -152,7 +152,7 @@ class Well:
         )
 
     def show(self, scene):
-        found, bead = wells(scene.motions[scene.table if scene.table in TABLES else "ordinary"], scene.start)
+        found, bead = wells(scene.motions[scene.watched], scene.start)
         lows, highs = zip(*(padded(well.low, well.high) for well in found), strict=True)
         self.wells.data = {"theta": [np.degrees(well.theta) for well in found], "V": [well.V for well in found],
                            "alpha": [1.0] + [0.0] * (len(found) - 1), "low": lows, "high": highs}  # fmt: skip

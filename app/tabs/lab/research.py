@@ -12,7 +12,6 @@ from app.model.lab.moments import moments
 from app.model.lab.nudged import hits, nudged
 from app.model.regimes import COLOUR, NAMES
 from app.model.runs import LATER, Run, Stopped
-from app.model.setup import TABLES
 from app.state import asked
 from app.state.names import PANELS
 from app.tabs.lab.figures import IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well
@@ -168,7 +167,7 @@ class Research(param.Parameterized):
         kept, scatters, of_run = words(style=TABLE), words(style=TABLE), words()
 
         def show(scene):
-            table = scene.table if scene.table in TABLES else "ordinary"
+            table = scene.watched
             happened.rows = [[t, f"{written(seconds, '.2f')} s", word, more]
                              for t, seconds, word, more in moments(scene.motions[table])]  # fmt: skip
             kept.object = table_words(scene)
