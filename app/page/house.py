@@ -127,6 +127,7 @@ class House:
         def show(*events):
             if not self._explores() and not research:
                 research.append(self._research())
+                self.pacer.shows(tab.follow, "hand")
             tab.view.level = self._level
             for each in research:
                 each.view.visible = not self._explores()
