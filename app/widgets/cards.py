@@ -3,11 +3,11 @@
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.colours import COLOURS
+from app.model.colours import ACCENT, COLOURS
 from app.widgets.typeset import typeset
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
-LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # legible on light and on dark
+LINK = f"color-mix(in srgb, {ACCENT} 60%, var(--ink, #22303c))"  # legible on light and on dark
 UNSEEN_LABEL = {
     "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
                              "clipPath": "inset(50%)"},

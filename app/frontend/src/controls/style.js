@@ -1,12 +1,12 @@
 // The style of everything that a hand sets: tokens for light, dark and large; buttons and choices; number controls. Four
 // font sizes, a grid of 8 px, one blue for what is selected, one colour for each quantity.
-import { onDark, onLight } from "../colours.js";
+import { colours, onDark } from "../colours.js";
 import { endsOnDark, endsOnLight } from "../ends.js";
 
 const tokens = `
 .frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
   --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
-  --accent: ${onLight.accent}; --q-spin: ${onLight.omega}; --q-energy: ${onLight.energy}; --q-energy-wash: ${onLight.energy_wash};
+  --accent: ${colours.accent}; --q-spin: ${colours.omega}; --q-energy: ${colours.energy}; --q-energy-wash: ${colours.energy_wash};
   ${endsOnLight} --shape: #55606c;
   container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
   -webkit-font-smoothing: antialiased; }
