@@ -120,6 +120,8 @@ COLUMNS = Value("a few numbers or words in each of its columns", _is_column)
 OPTION = Value("one of its options", _is_option)
 CHOSEN = Value("one of its values", lambda value, of: any(type(value) is type(each) and value == each
                                                           for each in of.options.values()))  # fmt: skip
+CHECKED = Value("some of its values", lambda value, of: type(value) is list and all(CHOSEN.fits(each, of)
+                                                                                   for each in value))  # fmt: skip
 TYPED = Value("text as long as its field takes", lambda value, of: text(of.max_length or LONGEST).fits(value, of))
 ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, of.start, of.end))
 
@@ -153,7 +155,6 @@ CHANGES = {
     "Location": {name: TEXT for name in ("href", "hostname", "pathname", "protocol", "port", "search", "hash")},
     # Panel Material UI's
     "Accordion": {"active": many(COUNT)},
-    "Button": {},
     "Checkbox": {"value": FLAG},
     "CheckBoxGroup": {"value": many(OPTION)},
     "Dialog": {"open": FLAG},
@@ -169,6 +170,8 @@ CHANGES = {
     # ours
     "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT,
                 "visited": row(COUNT, SHORT)},
+    "Button": {"clicks": COUNT},
+    "Checks": {"value": CHECKED},
     "Choice": {"value": CHOSEN},
     "Connection": {},
     "Copy": {},
@@ -176,7 +179,10 @@ CHANGES = {
     "Failure": {},
     "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT, SHORT, COUNT),
                      "piece": row(text(200_000), COUNT, COUNT, COUNT, SHORT, COUNT)},
+    "Field": {"value": text(60)},
     "FilmStage": {},
+    "Fold": {},
+    "Menu": {"value": CHOSEN},
     "Moments": {},
     "Guide": {},
     "LessonView": {"asked": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
@@ -190,7 +196,9 @@ CHANGES = {
     "Phone": {"mark": text(32)},
     "Said": {},
     "ShareHead": {"closed": COUNT},
+    "Stretch": {"value": row(*2 * [Value("a number on it", lambda value, of: _is_number(value, of.start, of.end))])},
     "Surface3D": POINT,
+    "TextFile": {"sent": row(text(LARGEST_FILE), COUNT, COUNT)},
     "Top3D": PICTURE,
     "Symbols": {},
     "TopsMap": {"state": PLAIN, "picked": row(COUNT, SHORT), "moved": row(COUNT, number(-1, 1), number(0.1, 10))},

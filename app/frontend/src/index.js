@@ -1,5 +1,8 @@
 import { renderChoice } from "./controls/choice.js";
+import { renderFold, renderTextFile } from "./controls/file.js";
+import { renderButton, renderChecks, renderField, renderMenu } from "./controls/form.js";
 import { renderNumberControls } from "./controls/group.js";
+import { renderStretch } from "./controls/stretch.js";
 import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
@@ -35,19 +38,24 @@ offerCallbacks();
 // Panel finds a component by the name of its Python class.
 export default {
   Address: { render: renderAddress },
+  Button: { render: renderButton },
+  Checks: { render: renderChecks },
   Choice: { render: renderChoice },
   Connection: { render: renderConnection },
   Copy: { render: renderCopy },
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
+  Field: { render: renderField },
   FilmStage: { render: renderFilmStage },
+  Fold: { render: renderFold },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
   LessonView: { render: renderLesson },
   LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
+  Menu: { render: renderMenu },
   Moments: { render: renderMoments },
   NumberControls: { render: renderNumberControls },
   Painted: { render: renderPainted },
@@ -58,7 +66,9 @@ export default {
   Said: { render: renderSaid },
   Steps: { render: renderSteps },
   ShareHead: { render: renderShareHead },
+  Stretch: { render: renderStretch },
   Surface3D: { render: renderSurface3D },
+  TextFile: { render: renderTextFile },
   Top3D: { render: renderTop3D },
   Symbols: { render: renderSymbols },
   TopsMap: { render: renderTopsMap },
