@@ -197,7 +197,7 @@ def test_the_page_asks_for_a_run_and_a_view_only_where_a_file_leaves_them_open()
     assert asked(tab) == []
     names = *CAPSTONE, *(name.replace("#1", "#2") for name in CAPSTONE)
     tab.take(table(names, T, TILT, SPIN, T, 2 * TILT, SPIN))
-    assert asked(tab) == [True] and tab.asks.run.options == ["Run #1", "Run #2"]
+    assert asked(tab) == [True] and [*tab.asks.run.options] == ["Run #1", "Run #2"]
     tab.asks.run.value = "Run #2"
     np.testing.assert_allclose(tab._data.series["tilt"].values, 2 * TILT, atol=1e-4)
     tab.take(PROGRAMS["a clock"])

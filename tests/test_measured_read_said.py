@@ -175,7 +175,7 @@ def test_values_that_are_far_off_can_be_left_out(monkeypatch):
     assert not tab.leave.visible
     tab.compute()
     assert tab.leave.visible and "3 of 120 values" in tab.found.object and fitted[0].refused
-    tab._leave(None)
+    tab._leave()
     assert not tab.leave.visible and not fitted[1].refused and len(tab._data.series["tilt"].t) == 57
     assert "6 errors off" not in tab.found.object
 

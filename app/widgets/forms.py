@@ -86,7 +86,7 @@ class Checks(Part):
 
 
 class Stretch(Part):
-    """A part of a range, between two thumbs. It arrives when a thumb is let go, or a number was typed."""
+    """A part of a range, between two thumbs. does: called when a thumb was let go, or a number typed."""
 
     start = param.Number(default=0.0)
     end = param.Number(default=1.0)
@@ -94,7 +94,19 @@ class Stretch(Part):
     digits = param.Integer(default=3, doc="After the decimal point.")
     unit = param.String(default="")
     value = param.List(default=[0.0, 1.0])
-    SENDS = ("value",)
+    pulled = param.List(default=[0, 0.0, 1.0], doc="[how often so far, from, to]; the browser sets it")
+    SENDS = ("pulled",)
+
+    def __init__(self, label, does=None, **params):
+        super().__init__(label, **params)
+        self._does = does
+        self.param.watch(asked.heard(self._heard), "pulled")
+
+    def _heard(self, event):
+        _, low, high = asked.parts(event.new, *3 * [asked.number])
+        self.value = [low, high]
+        if self._does:
+            self._does()
 
 
 class TextFile(Part):

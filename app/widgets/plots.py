@@ -19,6 +19,7 @@ from bokeh.plotting import figure
 from app.bundle import call
 from app.model.colours import FAINT, INK
 from app.text import decimal_point, say
+from app.widgets.look import FAMILY
 
 CLICKS, DRAG = ("tap", "doubletap"), ("panstart", "pan", "panend")
 """Bokeh's gestures. It calls the second of two clicks within 0.3 s a doubletap, wherever it is, and not a tap as
@@ -41,7 +42,7 @@ def plain(**options):
         tools="",
         outline_line_color=None,
         min_border=4,
-        background_fill_alpha=0,  # the theme of the widgets would set a colour
+        background_fill_alpha=0,
         border_fill_alpha=0,
         lod_threshold=None,
         **options,
@@ -51,6 +52,10 @@ def plain(**options):
     fig.axis.minor_tick_line_color = None
     fig.axis.major_label_text_color = INK
     fig.axis.major_label_text_font_size = "12px"
+    fig.axis.axis_label_text_color = INK
+    fig.axis.axis_label_text_font_size = "12px"
+    fig.axis.axis_label_text_font_style = "normal"
+    fig.axis.major_label_text_font = fig.axis.axis_label_text_font = FAMILY
     fig.axis.major_tick_in = 0
     fig.axis.major_label_policy = AllLabels()  # the same object for both
     if decimal_point() != ".":

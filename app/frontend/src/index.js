@@ -1,6 +1,10 @@
 import { renderChoice } from "./controls/choice.js";
-import { renderFold, renderTextFile } from "./controls/file.js";
-import { renderButton, renderChecks, renderField, renderMenu } from "./controls/form.js";
+import { renderFold } from "./controls/file.js";
+import { renderTextFile } from "./controls/file.js";
+import { renderButton } from "./controls/button.js";
+import { renderChecks } from "./controls/menu.js";
+import { renderField } from "./controls/field.js";
+import { renderMenu } from "./controls/menu.js";
 import { renderNumberControls } from "./controls/group.js";
 import { renderStretch } from "./controls/stretch.js";
 import { offerCallbacks } from "./figures/callbacks.js";

@@ -131,6 +131,7 @@ interface StretchModel extends Model {
   digits: number;
   unit: string;
   value: number[];
+  pulled: [count: number, from: number, to: number];
 }
 
 interface TextFileModel extends Model {
@@ -173,7 +174,6 @@ interface LookModel extends Model {
   id: string;
   dark: boolean | null;
   large: boolean;
-  on_dark: Record<string, string>;
 }
 
 interface DownloadModel extends Model {

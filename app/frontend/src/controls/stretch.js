@@ -61,8 +61,9 @@ class Ends {
   }
 
   send(value) {
-    if (value.some((each, i) => each !== this.model.value[i])) this.model.value = value;
-    else this.show();
+    if (value.every((each, i) => each === this.model.value[i])) return this.show();
+    this.show(value);
+    this.model.pulled = [this.model.pulled[0] + 1, value[0], value[1]];
   }
 
   typed(i) {

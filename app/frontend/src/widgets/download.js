@@ -1,4 +1,4 @@
-import { saveButton } from "../controls/form.js";
+import { saveButton } from "../controls/button.js";
 import { bytesOf } from "../data.js";
 import { save } from "./saving.js";
 

@@ -1,5 +1,5 @@
 // Opens a page to print in a new window.
-import { saveButton } from "../controls/form.js";
+import { saveButton } from "../controls/button.js";
 
 /** @param {Rendering<PaperModel>} rendering */
 export function renderPaper(rendering) {

@@ -1,6 +1,6 @@
 // Saves a picture of the top as shown, with its caption below.
 import { colours } from "../colours.js";
-import { saveButton } from "../controls/form.js";
+import { saveButton } from "../controls/button.js";
 import { penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
 import { save } from "./saving.js";
