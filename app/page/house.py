@@ -161,7 +161,7 @@ class House:
         self.pacer.shows(bench.show, "rest")
         fields = RockingFields(self.builder)
         self._at_levels(lambda explores: setattr(fields.formula, "visible", not explores))
-        rocking = card(say("main.cards.measure"), *fields.view, height="max-content")
+        rocking = card(say("main.cards.measure"), *fields.view)
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"), **BARE)
         self._at_levels(lambda explores: setattr(top, "stylesheets", [HIGH, PLAIN] if explores else [HIGH]))
         self.pacer.shows(partial(show_top, top), "rest")
@@ -169,9 +169,7 @@ class House:
         self.pacer.shows(told.show, "rest")
         spin = Button(say("build.spin.it"), self._spin, kind="primary", margin=(8, 0, 0, 0))
         parts = {"section": bench.section_view, "built": (top, told.view, told.strip, spin), "bench": bench.bench_view}
-        section, built, measures = (
-            card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
-        )
+        section, built, measures = (card(say(f"main.cards.{name}"), *shown) for name, shown in parts.items())
         return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
     def _spin(self):
@@ -187,9 +185,9 @@ class House:
         self.pacer.shows(compare.show, "hand")
         compare.compute()
         cards = (
-            (card(say("family.tops.title"), *tops.map_view, height="max-content"), "3 1 560px"),
-            (card("", *tops.beside_view, height="max-content"), "2 1 360px"),
-            (card(say("main.cards.map"), *compare.map_view, height="max-content"), "1 1 100%"),
+            (card(say("family.tops.title"), *tops.map_view), "3 1 560px"),
+            (card("", *tops.beside_view), "2 1 360px"),
+            (card(say("main.cards.map"), *compare.map_view), "1 1 100%"),
         )
         return flexible(*cards)
 

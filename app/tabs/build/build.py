@@ -94,7 +94,7 @@ class Inside:
         self._silent = False
         options = {says: kind for kind, says in listed("build.inside").items()}
         self.switch = Choice(options, "solid", say("build.bench.inside"))
-        self.switch.param.watch(lambda event: None if self._silent else choose(event.new), "value")
+        self.switch.on("value", lambda event: None if self._silent else choose(event.new))
         self.steel = words(note(say("build.bench.steel")), sizing_mode=None)
         self.view = pn.Column(flow(self.switch, self.steel), sizing_mode="stretch_width", margin=0)
 
@@ -147,7 +147,7 @@ class Build:
 
     def _choice(self, key, choose):
         select = Menu(say(f"build.bench.{key}"))
-        select.param.watch(lambda event: None if self._silent or not event.new else choose(event.new), "value")
+        select.on("value", lambda event: None if self._silent or not event.new else choose(event.new))
         return select
 
     @staticmethod

@@ -23,7 +23,7 @@ class RockingFields:
         self.formula, self.result = words(say("build.own.formula")), words()
         self.use = Button(say("build.own.explore"), self._use, margin=(4, 0))
         for entry in self.entries.values():
-            entry.param.watch(lambda event: self._show(), "value")
+            entry.on("value", lambda event: self._show())
         builder.param.watch(lambda event: self._show(), "draft")
         self._show()
 
