@@ -15,7 +15,7 @@ from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
 from serving import answers, end, redis_serving, until
-from visiting import Visit, free_port, launch
+from visiting import Visit, draws_coarsely, free_port, launch
 from watching import Watch
 
 settings.register_profile(
@@ -26,6 +26,7 @@ settings.load_profile("repeatable")
 
 def pytest_addoption(parser):
     parser.addoption("--remake", action="store_true", help="compute the slow oracles' answers again and store them")
+    parser.addoption("--store", action="store_true", help="store those that are missing; with -n 0")
     parser.addoption("--write-durations", action="store_true", help="store how long each file of tests takes")
     parser.addoption("--long", action="store_true", help="run also those that are slow by nature: `make long`")
     parser.addoption(
@@ -44,6 +45,7 @@ def pytest_collection_modifyitems(config, items):
 
 def pytest_configure(config):
     references.REMAKE = config.getoption("--remake")
+    references.STORE = references.REMAKE or config.getoption("--store")
     config.pluginmanager.register(Durations(config))
 
 
@@ -99,7 +101,7 @@ def redis():
 @pytest.fixture(scope="session")
 def chromium(request):
     with sync_playwright() as playwright:
-        browser = launch(playwright)
+        browser = draws_coarsely(launch(playwright))
         request.config.stash[WATCH] = Watch(browser)
         yield browser
         browser.close()

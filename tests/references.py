@@ -1,4 +1,5 @@
-"""Stores the answers of slow oracles in data/<function>.npz; make proof (pytest --remake) computes them again.
+"""Stores the answers of slow oracles in data/<function>.npz: `pytest -n 0 --store` those that are missing there, make
+proof (pytest --remake) all of them anew.
 
 The key of an answer contains the arguments and a hash of the oracle with all of the tests' code that it goes through
 (fingerprint.py). So with new arguments or a changed oracle the answer is computed, which takes time and gives a
@@ -16,7 +17,7 @@ from fingerprint import Code, fingerprint
 
 TESTS = Path(__file__).parent
 FOLDER = TESTS / "data"
-REMAKE = False  # set by conftest.py
+REMAKE = STORE = False  # set by conftest.py
 
 
 @functools.cache
@@ -35,7 +36,7 @@ LATER = (
 def kept(function):
     """Decorates a function of tops, states, laws, numbers and arrays whose result is a tuple of numbers and arrays."""
     file = FOLDER / f"{function.__name__}.npz"
-    found = {}  # the stored answers; with --remake, those that will be stored
+    found = {}  # the stored answers, and "code", the hash of what gave them; with --remake, those that will be stored
 
     @functools.cache
     def code():
@@ -49,12 +50,14 @@ def kept(function):
         key = key_of(code(), text((given, sorted(named.items()))))
         names = sorted((name for name in found if name.startswith(key)), key=lambda name: int(name.split(".")[1]))
         if not names:
-            if not REMAKE:
-                warnings.warn(f"{function.__name__}: this answer is not stored; make proof stores it", stacklevel=2)
+            if not STORE:
+                warnings.warn(f"{function.__name__}: this answer is not stored; --store stores it", stacklevel=2)
+            elif str(found.get("code", code())) != code():
+                found.clear()  # nobody asks for the answers of older code
             parts = {f"{key}.{i}": np.asarray(part) for i, part in enumerate(function(*given, **named))}
-            found.update(parts)
+            found.update(parts, code=np.asarray(code()))
             names = [*parts]
-            if REMAKE:
+            if STORE:
                 np.savez_compressed(file, **found)
         return tuple(found[name][()] for name in names)
 

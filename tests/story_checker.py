@@ -36,20 +36,23 @@ BODIES = {
 }  # fmt: skip
 """{preset: its body in an address}."""
 CASES = (
-    ("cone", "spin=3.8&tilt=15.6"), ("Leine", "spin=47.5&tilt=126.8"), ("Top S", "spin=.3&tilt=172.6"),
+    ("Leine", "spin=47.5&tilt=126.8"), ("Top S", "spin=.3&tilt=172.6"),
     ("paper", "spin=.3&tilt=13.4"), ("paper", "spin=.3&tilt=0"), ("Top S", "spin=100&tilt=43.4"),
     ("loaded", "spin=50&tilt=10"), ("loaded", "spin=15.2&tilt=10"), ("Top S", "spin=10.8&tilt=8.3"),
-    ("paper", "spin=100&tilt=180"), ("paper", "spin=37&tilt=61.7"), ("paper", "spin=27.5&tilt=51.8"),
-    ("Leine", "spin=8&tilt=159.9"), ("hollow", "spin=34.7&tilt=166.4"), ("hollow", "spin=35.5&tilt=65.2"),
-    ("Leine", "spin=47.2&tilt=90"), ("Leine", "spin=-30.9&tilt=90"), ("Top S", "spin=1&tilt=180&mu_k=.46&patch=.19"),
-    ("Top S", "spin=-40.9&tilt=136.6&mu_k=1&patch=.01"), ("Leine", "spin=12.9&tilt=173.2"),
+    ("paper", "spin=100&tilt=180"), ("Leine", "spin=8&tilt=159.9"), ("hollow", "spin=34.7&tilt=166.4"),
+    ("Top S", "spin=1&tilt=180&mu_k=.46&patch=.19"), ("Leine", "spin=12.9&tilt=173.2"),
     ("Leine", "spin=.3&tilt=180"), ("ball", "spin=50&tilt=107.3"), ("loaded", "spin=-58.2&tilt=10&mu_k=1"),
     ("Leine", "spin=50&tilt=10&patch=5"), ("Leine", "spin=.3&tilt=10"),
     ("Leine", "spin=50&tilt=5.5&mu_k=.01&patch=1.94"), ("paper", "spin=50&tilt=5&mu_k=.1"),
     ("paper", "spin=46&tilt=5&mu_k=.1"), ("paper", "spin=34&tilt=5&mu_k=.1"), ("Leine", "spin=40&tilt=5.7&mu_k=.05"),
     ("Leine", "spin=20&tilt=5.7&mu_k=.05"), ("Leine", "spin=40&tilt=5.7&mu_k=.1"), ("cone", "spin=30&tilt=44"),
 )  # fmt: skip
-"""(preset, start) of which something false was said before; on all tables."""
+LIVES = (
+    ("cone", "spin=3.8&tilt=15.6"), ("paper", "spin=37&tilt=61.7"), ("paper", "spin=27.5&tilt=51.8"),
+    ("hollow", "spin=35.5&tilt=65.2"), ("Leine", "spin=47.2&tilt=90"), ("Leine", "spin=-30.9&tilt=90"),
+    ("Top S", "spin=-40.9&tilt=136.6&mu_k=1&patch=.01"),
+)  # fmt: skip
+"""(preset, start) of which something false was said before; on all tables. LIVES take seconds each."""
 STEMLESS = "Top S", "loaded", "ball"
 TABLES = "ordinary", "rough", "ice", "three"
 WORKER = """
@@ -142,9 +145,9 @@ def arrival_faults(told):
             yield "arrival", "ordinary", f"{phase['kind']} has no headline or no reason"
 
 
-def cases():
-    """[(preset, query)]: the arrival, and CASES."""
-    tabled = ((name, f"?v=2&body={BODIES[name]}&{start}&table=three&tab=lab") for name, start in CASES)
+def cases(starts=CASES + LIVES):
+    """[(preset, query)]: the arrival, and these starts."""
+    tabled = ((name, f"?v=2&body={BODIES[name]}&{start}&table=three&tab=lab") for name, start in starts)
     return [("paper", ""), *tabled]
 
 

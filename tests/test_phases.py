@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from said import faults, link, starts
 
 from app.model import tell
 from app.model.ends import NAMES
@@ -180,17 +179,6 @@ def test_a_top_that_hangs_does_not_fall_and_its_life_is_computed():
 
 
 # ---- what tell() returns ----
-
-
-def test_nothing_false_is_said_of_a_few_random_starts():
-    for start in starts(7, 6):
-        assert not faults(tell(link(*start))), start
-
-
-@pytest.mark.long
-def test_nothing_false_is_said_of_a_hundred_random_starts():
-    for start in starts(20261127, 100):
-        assert not faults(tell(link(*start))), start
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

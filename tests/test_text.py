@@ -19,6 +19,7 @@ OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 
 # Values that are equal in every language, by file.table.key: names, and keys of other tables.
 SAME = (
+    "planes.units.slip",
     "sources.*.short",
     "history.part.*.sources.*",
     "planes.survives.*",

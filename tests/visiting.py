@@ -18,6 +18,9 @@ FLAGS = [
     "--disable-sync",
 ]
 
+# Three-dimensional pictures have a sixteenth of their pixels: the processor draws them. All else is as it is.
+COARSE = "Object.defineProperty(window, 'devicePixelRatio', { get: () => 1 / 4 })"
+
 # A column of a data source in the browser, given the name of its figure, the index of the renderer and the column; of
 # Fig. 6, which is our own, a column of its limits.
 COLUMN = """
@@ -138,6 +141,22 @@ def free_port():
 
 def launch(playwright):
     return playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+
+
+def draws_coarsely(browser):
+    """From now on its pages have COARSE, except those of a context with a `device_scale_factor` of its own."""
+
+    def coarse(make):
+        def made(**like):
+            found = make(**like)
+            if "device_scale_factor" not in like:
+                found.add_init_script(COARSE)
+            return found
+
+        return made
+
+    browser.new_context, browser.new_page = coarse(browser.new_context), coarse(browser.new_page)
+    return browser
 
 
 def wait(page, ready):

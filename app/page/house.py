@@ -125,7 +125,7 @@ class House:
 
         def show(*events):
             if not self._explores() and not research:
-                research.append(self._research())
+                research.append(self._research(tab.follow))
             tab.view.level = self._level
             for each in research:
                 each.view.visible = not self._explores()
@@ -133,18 +133,19 @@ class House:
                 if each.view not in view:  # only now, because a group of inputs is drawn with its values
                     view.append(each.view)
             is_beside = not self._explores() and self.explorer.table != "three"
-            view.styles = {"--columns": COLUMNS[is_beside], "--beside": "sticky" if is_beside else "static"}
+            view.styles = {"--columns": COLUMNS[is_beside], "--beside": "sticky" if is_beside else "static",
+                           "--edge": "0" if is_beside else "24px"}  # fmt: skip
 
         self._at_levels(lambda explores: show())
         self.explorer.param.watch(show, "table")
         return view
 
-    def _research(self):
+    def _research(self, follow):
         controls = Controls(self.scene, self.pacer.ask)
         self.keep.add(controls)
         for show_scene, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show_scene, when)
-        found = Research(self.pacer, self.lab_of, self.runs, controls.card(), self.builder.choose)
+        found = Research(self.pacer, self.lab_of, self.runs, controls.card(), self.builder.choose, follow)
         self.keep.add(found)
         found.param.watch(lambda event: self.keep.at_rest(), "panel")
         return found

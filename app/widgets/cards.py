@@ -2,9 +2,10 @@
 
 import panel as pn
 
+from app.model.colours import ACCENT
 from app.widgets.typeset import typeset
 
-LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # legible on light and on dark
+LINK = f"color-mix(in srgb, {ACCENT} 60%, var(--ink, #22303c))"  # legible on light and on dark
 # The stage beside the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 STAGED = """

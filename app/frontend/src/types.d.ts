@@ -89,7 +89,7 @@ interface PlaneModel extends Model {
 }
 
 // The words of a number control: its name, the name of its field, its unit; in HTML, on hover and as it is read aloud.
-type Said = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string };
+type Said = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string; symbol?: string };
 interface ChoiceModel extends Model {
   label: string;
   options: Record<string, string | number>;

@@ -161,7 +161,7 @@ def constants(kept):
     """A figure for each constant of the motion, computed from the data alone, with its errors."""
     panes = []
     for name, constant in kept.items():
-        colour = COLOURS["jellett" if name == "K_J" else "omega"]
+        colour = COLOURS["jellett" if name == "K_J" else "routh"]
         fig = named(plain(), say("measure.kept.picture", name=say(f"measure.kept.{name}")))
         fig.update(sizing_mode="stretch_width", height=150, min_border_left=LEFT)
         fig.xgrid.visible = False

@@ -152,7 +152,7 @@ class Measure:
         """Loads a table, bytes or text, in place of all that came of the one before. If it cannot be read, that one
         stays, and it is said that it does. name: of its file; link: what the page's link has of it already."""
         try:
-            film, table = opened(text), read(text)
+            film, table = opened(text), read(text, name)
         except MeasuredError as error:
             self._not_taken(error, each)
             return

@@ -13,6 +13,8 @@ const looks = {
   dark: ["#eef2f6", "#9aa7b4", "#333d48", "#0e1318", "#75592f", onDark.accent],
   "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#0e1318", "#75592f", onDark.accent],
 };
+// of a quantity: its colour on a light page, and that on a dark one
+const DARK = new Map(Object.entries(onDark).map(([name, dark]) => [colours[name].toLowerCase(), dark]));
 const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2", "dark large": "#e3e8ed" };
 
 const isColour = (property) => property.endsWith("_color");
@@ -27,10 +29,11 @@ function exchange(value, as) {
 /** @param {LookModel} model @param {string} name that of the look @param {boolean} dark */
 function setVariables(model, name, dark) {
   const [ink, , line, paper] = looks[name], { style, dataset } = document.documentElement;
+  const quantities = dark ? onDark : colours;
   const values = {
+    ...Object.fromEntries(Object.keys(onDark).map((each) => [`--${each}`, quantities[each]])),
     "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper,
-    "--focus": (dark ? onDark : colours).chosen, "--link": dark ? "#8ec7f5" : "#0b5cad",
-    "--accent": (dark ? onDark : colours).accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
+    "--focus": quantities.chosen, "--link": quantities.accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
   style.colorScheme = dark ? "dark" : "light"; // for what the browser draws itself
@@ -62,7 +65,7 @@ class Look {
 
   dress(part) {
     const { name, model: { large } } = this;
-    const ink = (value) => looks[name][INKS.indexOf(value.toLowerCase())] ?? value;
+    const ink = (value) => looks[name][INKS.indexOf(value.toLowerCase())] ?? (name.startsWith("dark") ? DARK.get(value.toLowerCase()) : undefined) ?? value;
     const size = (value) => (large ? value.replace(/^[\d.]+(?=px)/, (now) => String(LARGER * now)) : value);
     const wanted = Object.entries(this.own(part)).map(([property, value]) => [property, exchange(value, isColour(property) ? ink : size)]);
     if (wanted.length) part.setv(Object.fromEntries(wanted), { sync: false });
