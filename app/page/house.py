@@ -220,6 +220,7 @@ class House:
     def measure(self):
         measure = Measure(self.scene, self.runs)
         self.keep.add(measure.filmed)
+        self._at_levels(lambda explores: measure.found.param.update(css_classes=["brief"] if explores else []))
         self.pacer.shows(measure.show, "hand")
         return measure.view
 

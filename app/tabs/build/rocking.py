@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from app.model.build.builder import Rocking
+from app.model.build.builder import Rocking, rocks_once
 from app.model.build.dimensions import sentence
 from app.text import listed, say
 from app.widgets.cards import alert, flow, note, words
 from app.widgets.forms import Button, Field
 from app.widgets.numbers import tidy, typed_number
-from tippe_core import TopError, rocking_period
+from tippe_core import TopError
 
 AGREES = 2.0  # errors
 
@@ -65,8 +65,7 @@ class RockingFields:
             return
         shape = self.builder.draft.shape
         if not all(self.entries[name].value.strip() for name in self.TIMED):
-            period = rocking_period(shape.top) * shape.scales.time
-            self.result.object, self.use.disabled = say("build.own.drawing", period=period), True
+            self.result.object, self.use.disabled = say("build.own.drawing", period=rocks_once(shape)), True
             return
         try:
             rocking, found = self._found()
