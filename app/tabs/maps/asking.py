@@ -40,9 +40,9 @@ class Settings:
         self.entries = {name: Field(says, shows=shows.get(name, "")) for name, says in spoken.items()}
         self.show(asked, colour, place)
         for name, select in self.choices.items():
-            select.param.watch(partial(self._chosen, name), "value")
+            select.on("value", partial(self._chosen, name))
         for name, entry in self.entries.items():
-            entry.param.watch(partial(self._typed, name), "value")
+            entry.on("value", partial(self._typed, name))
 
     @property
     def view(self):

@@ -31,14 +31,14 @@ from tippe_core import TopError
 
 MAP = Map()
 PICTURE_EVERY = 0.3  # s
-PART = {"background": "var(--card, white)", "border-radius": "10px", "padding": "10px 14px", "box-sizing": "border-box",
-        "min-width": "0"}  # fmt: skip
+PART = {"min-width": "0"}
 # On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
 ROOM = """
-:host { display: grid; gap: 12px; padding: 12px; align-items: start; grid: auto-flow max-content / minmax(0, 1fr);
+:host { display: grid; gap: 16px 24px; padding: 12px 16px 16px; align-items: start;
+  grid: auto-flow max-content / minmax(0, 1fr);
   min-height: max-content }
 @media (min-width: 900px) {
-  :host { padding: 12px 24px; grid: max-content 1fr / minmax(0, 66fr) minmax(0, 34fr) }
+  :host { padding: 12px 24px 24px; grid: max-content 1fr / minmax(0, 66fr) minmax(0, 34fr) }
   .run { grid-area: 1 / 2 / span 2 }
 }
 """
