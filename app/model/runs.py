@@ -15,8 +15,7 @@ from collections import Counter
 from collections.abc import Callable, Hashable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from contextvars import ContextVar
-from functools import partial
+from contextvars import ContextVar, copy_context
 from typing import Any, TypeAlias
 
 from app.model.cores import cores
@@ -232,7 +231,7 @@ def to_session(document: Document) -> Post:
     Panel often does: otherwise the request joins these, and is lost if they are let go at the same moment. So the
     server's own thread makes it.
     """
-    loop = _loop_of(document)
+    loop, here = _loop_of(document), copy_context()  # to whose session it is charged: server/loop.py
 
     def request(function: Piece) -> None:
         try:
@@ -242,7 +241,7 @@ def to_session(document: Document) -> Post:
             if document.session_context is not None:
                 raise
 
-    return partial(loop.add_callback, request) if loop else request
+    return (lambda function: loop.add_callback(here.run, request, function)) if loop else request
 
 
 def _loop_of(document: Document) -> Any:

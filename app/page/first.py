@@ -22,8 +22,7 @@ import numpy as np
 import panel_material_ui as pmui
 from panel.custom import JSComponent
 
-from app.borrowed import address_of
-from app.bundle import Bundled, inlined
+from app.bundle import BUNDLE, Bundled, address_of, inlined
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state import opened as room
@@ -35,6 +34,7 @@ from app.widgets.waiting import waiting
 PAGE = Path(__file__).with_name("first.html")
 EARLY, BORROWED = inlined(PAGE.with_name("early.js")), inlined(PAGE.parents[1] / "borrowed.js")
 FILE = Path(__file__).with_name("arrival.gz")
+MUI = Path(pmui.__file__).parent / "dist/panel-material-ui.bundle.js"
 FRAME, POSE, CURVE = 21, 11, 8  # columns: of a frame (pack_frames), of these its pose, and of a curve
 NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
 """{array of a LabView: (columns, those that are needed at first, steps per unit)}."""
@@ -95,10 +95,9 @@ def version():
 
 def variables(language):
     """The variables of the template PAGE; language: that of the page."""
-    address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.name}"
-    bundles = [address_of(kind) for kind in (Bundled, pmui.Page)]
+    bundles = [address_of(Bundled, BUNDLE), address_of(pmui.Page, MUI)]
     early = {"language": language, "bundles": bundles, "searches": searches(),
-             "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
+             "numbers": f"{address_of(Numbers, FILE)}?{urlencode({'v': version()})}"}  # fmt: skip
     return {"bundles": bundles, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
             "early_script": EARLY, "borrowed": BORROWED, "family": FAMILY, "waiting": waiting(language)}  # fmt: skip
 
