@@ -12,7 +12,9 @@ NOTES = sorted((ROOT / "docs/upstream").glob("*.md"))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("note", [note for note in NOTES if "```python" in note.read_text()], ids=lambda note: note.stem)
+@pytest.mark.parametrize(
+    "note", [note for note in NOTES if "```python" in note.read_text()], ids=lambda note: note.stem
+)
 def test_the_fault_is_still_there(note, tmp_path):
     """Otherwise what we borrow because of it can go."""
     text = note.read_text(encoding="utf-8")
