@@ -34,7 +34,7 @@ class MeasuredError(ValueError):
         self.code, self.numbers = code, numbers
 
     def __str__(self) -> str:
-        return f"{self.code}: {say(f'measure.wrong.{self.code}', **self.numbers)}"
+        return f"{self.code}: {say(f'measure.wrong.{self.code}', None, **self.numbers)}"
 
 
 @dataclass(frozen=True, eq=False)
