@@ -29,26 +29,13 @@ try {
 
 // 2. Panel fetches a component's bundle when the first of its components comes, reads through it and runs a copy. The browser
 // has ours by then: under its address (https://github.com/holoviz/panel/pull/7410) it is given out as it is.
-const { bundles } = JSON.parse(document.getElementById("early")?.textContent ?? "");
-/** @type {Set<string>} */
-const ours = new Set(bundles.map((path) => new URL(path, document.baseURI).href));
+const { bundle } = JSON.parse(document.getElementById("early")?.textContent ?? "");
+const ours = new URL(bundle, document.baseURI).href;
 const theirs = window.importShim;
 const load = (path, ...more) => {
   const { href } = new URL(path, document.baseURI);
-  return ours.has(href) ? import(href) : theirs(path, ...more);
+  return href === ours ? import(href) : theirs(path, ...more);
 };
 window.importShim = Object.setPrototypeOf(load, theirs);
 // run while the server makes the session
-setTimeout(() => ours.forEach((href) => import(href).catch(console.error)));
-
-// 3. A React component reads its values when it is drawn and listens for their changes only after that; what came in between,
-// it never showed. Here it reads them once more as it begins to listen. No issue that we found.
-try {
-  const component = Bokeh.Models.get("panel.models.esm.ReactComponent").prototype, { watch } = component;
-  component.watch = function (view, name, read, isState = false) {
-    watch.call(this, view, name, read, isState);
-    if (isState) read();
-  };
-} catch (error) {
-  console.warn(error); // a change may be lost, and nothing else
-}
+setTimeout(() => import(ours).catch(console.error));

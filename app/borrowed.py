@@ -16,8 +16,6 @@ import panel.io.document
 import panel.layout.base
 import panel.layout.grid
 import panel.reactive
-import panel_material_ui as pmui
-import param
 from bokeh.core.serialization import Deserializer, Serializer, UnknownReferenceError
 from bokeh.document import Document
 from bokeh.document.events import DocumentPatchedEvent
@@ -324,26 +322,3 @@ def address_of(component):
     """7. The address on this page of a component's JavaScript, if that is in a bundle (so since
     https://github.com/holoviz/panel/pull/7410), so that the browser can request it before Panel says so."""
     return component._render_esm(True, server=True)
-
-
-class WholeFile(pmui.FileInput):
-    """8. Accepts a file only in one piece, and counts those that are too large; the base class does neither.
-    https://github.com/panel-extensions/panel-material-ui/issues/282, https://github.com/holoviz/panel/issues/541"""
-
-    LARGEST = 0  # bytes
-    refused = param.Integer(default=0)
-    _sent = None  # until the browser says that the file is complete
-
-    def _handle_msg(self, msg):
-        status = msg["status"]
-        if status == "upload_event":
-            self._sent = msg
-        elif status == "finished" and self._sent:
-            sent, self._sent = self._sent, None
-            if isinstance(sent["data"], bytes | memoryview) and len(sent["data"]) <= self.LARGEST:
-                self.param.update(value=bytes(sent["data"]), filename=sent["name"], mime_type=sent["mime_type"])
-            else:
-                self.refused += 1
-            self._send_msg({"status": "finished"})
-        elif status == "error":
-            self.refused += 1

@@ -18,6 +18,14 @@ server process ("one"), to two ("two"), and to the bare app ("bare") come
     breaks    more and more of them move one, until p95 is over 1 s or something fails
     memory    MB of the server: a session that came and looks, one that moves a slider, and after all have left
 
+Two more look at what one visitor takes of another, with one server process. Beside a crowd (crowd.py, a process of its
+own with a low priority) one visitor moves a slider each 0.3 s, and /liveness is asked each 0.1 s:
+
+    rooms     20 and then 100 pages all open one room after the other at the same moment; and ten pages that each open
+              another one every 2 s
+    greedy    1, 2, 4 and 16 pages that look into rooms, ask for the whole page, or send pings or empty frames, as fast
+              as they can; and what the server still does 2 s after they have gone
+
 and to one with the image's PYTHONMALLOC=malloc ("image")
 
     memory    as above
@@ -29,6 +37,7 @@ Results of runs are kept below.
 import argparse
 import asyncio
 import datetime
+import json
 import os
 import platform
 import random
@@ -36,15 +45,18 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, asynccontextmanager, contextmanager, suppress
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+from tornado.httpclient import AsyncHTTPClient, HTTPError
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+from crowd import GREEDY
 from serving import answers, megabytes, served, until
 from visiting import free_port, of_roll
+from visitors import ROOMS
 from wire import Page, Visitor
 
 BARE = """
@@ -258,6 +270,105 @@ async def arrive(servers, few):
         await asyncio.sleep(10)
 
 
+class Beside:
+    """One visitor who moves a slider, and somebody who asks for /liveness, beside a crowd."""
+
+    def __init__(self, url):
+        self.url = url.partition("?")[0]
+
+    async def __aenter__(self):
+        self.mover = Active(await Visitor.enter(self.url))
+        await self.mover.visitor.ready()
+        await asyncio.sleep(3)
+        self.alive = []
+        self._tasks = [asyncio.create_task(each) for each in (self.mover.act(3600, 0, 0.3), self._look())]
+        return self
+
+    async def __aexit__(self, *error):
+        for task in self._tasks:
+            task.cancel()
+        await self.mover.leave()
+
+    async def _look(self):
+        while True:
+            start = time.monotonic()
+            with suppress(HTTPError, OSError, asyncio.TimeoutError):
+                await AsyncHTTPClient().fetch(self.url.replace("/app", "/liveness"), request_timeout=60)
+            self.alive.append(time.monotonic() - start)
+            await asyncio.sleep(0.1)
+
+    def begin(self):
+        """Forgets what was."""
+        self.mover.times.clear()
+        self.alive.clear()
+
+    def said(self):
+        """What was since begin()."""
+        waits = [time.monotonic() - self.mover.moved] if self.mover.moved else []
+        return (f"moves {summary(self.mover.times + waits)} of {len(self.mover.times)}; "
+                f"/liveness most {1e3 * max(self.alive or [np.nan]):.0f} ms")  # fmt: skip
+
+
+@asynccontextmanager
+async def crowd(url, people):
+    """So many people of crowd.py; gives its process once they are there."""
+    program = Path(__file__).with_name("crowd.py")
+    pipes = {"stdin": asyncio.subprocess.PIPE, "stdout": asyncio.subprocess.PIPE}
+    process = await asyncio.create_subprocess_exec(sys.executable, str(program), url, str(people), limit=2**20, **pipes)
+    try:
+        assert await process.stdout.readline() == b"here\n"
+        yield process
+    finally:
+        with suppress(ProcessLookupError):
+            process.kill()
+        await process.wait()
+
+
+async def rooms(servers, few):
+    """All that "rooms" measures."""
+    [server] = servers
+    url = server.url.partition("?")[0]
+    for people in (20, 100):
+        async with crowd(url, max(1, people // few)) as process, Beside(url) as beside:
+            await asyncio.sleep(8)  # what comes after a page
+            for room in ROOMS:
+                beside.begin()
+                process.stdin.write(f"{room}\n".encode())
+                times = json.loads(await process.stdout.readline())
+                print(f"    {len(times)} open {room}: after {summary(times)}; {beside.said()}", flush=True)
+                await asyncio.sleep(4)
+        await asyncio.sleep(10)
+    async with crowd(url, 10) as process, Beside(url) as beside:
+        await asyncio.sleep(8)
+        beside.begin()
+        process.stdin.write(b"teacher\n")
+        await asyncio.sleep(max(5, 30 // few))
+        print(f"    ten open another room each 2 s: {beside.said()}", flush=True)
+
+
+async def greedy(servers, few):
+    """All that "greedy" measures."""
+    [server] = servers
+    url = server.url.partition("?")[0]
+    async with Beside(url) as beside:
+        for way in GREEDY[:4]:
+            for people in (1, 2, 4, 16):
+                async with crowd(url, people) as process:
+                    await asyncio.sleep(5)
+                    process.stdin.write(f"{way}\n".encode())
+                    await asyncio.sleep(max(3, 9 // few))
+                    beside.begin()
+                    await asyncio.sleep(max(4, 10 // few))
+                    said = beside.said()
+                await asyncio.sleep(2)
+                before = server.seconds()
+                beside.begin()
+                await asyncio.sleep(2)
+                print(f"    {people} of {way}: {said}; 2 s after they left: {server.seconds() - before:.1f} s of the "
+                      f"processor in 2 s, {beside.said()}", flush=True)  # fmt: skip
+                await asyncio.sleep(5)
+
+
 class Process:
     """A server that runs: where its page is, and what the system says of its process."""
 
@@ -313,7 +424,9 @@ def all_kinds(folder):
 
 
 KINDS = {"arrive": all_kinds, "one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2),
-         "bare": bare, "image": lambda folder: ours(folder, 1, "malloc")}  # fmt: skip
+         "rooms": lambda folder: ours(folder, 1), "greedy": lambda folder: ours(folder, 1), "bare": bare,
+         "image": lambda folder: ours(folder, 1, "malloc")}  # fmt: skip
+DO = {"arrive": arrive, "rooms": rooms, "greedy": greedy}
 
 
 def main():
@@ -328,8 +441,8 @@ def main():
         print(f"  {name}, load {os.getloadavg()[0]:.1f} before")
         with tempfile.TemporaryDirectory() as folder, KINDS[name](folder) as servers:
             few = 10 if options.quick else 1
-            does = arrive(servers, few) if name == "arrive" else visits(servers, few, name == "image")
-            asyncio.run(asyncio.wait_for(does, 900))
+            does = DO[name](servers, few) if name in DO else visits(servers, few, name == "image")
+            asyncio.run(asyncio.wait_for(does, 1800))
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from visiting import ALL_IS_NEAR, PATIENCE, wait
 from app.bundle import BUNDLE
 from app.model.lab.lab import Lab
 from app.tabs.lab.lab import LabTab
-from app.widgets.theme import FAMILY
+from app.widgets.look import FAMILY
 
 HERE = "http://component.test"
 # As in the page: it fills the window, and what does not fit scrolls. A model holds values, runs the listeners of one

@@ -127,7 +127,7 @@ class Session:
         if loose:
             measure.loose.value = [*loose]
         measure.compute()
-        measure.home.in_link.value = True
+        measure.home.in_link.value = ["link"]
         assert measure.filmed.film
         return self
 

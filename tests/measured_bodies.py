@@ -7,9 +7,10 @@ import rigid_body as rb
 import sliding_body as sb
 from scipy.optimize import least_squares
 
-from app.model.measured.data import Data, Series
+from app.model.measured.data import Data, Series, settled
 from app.model.measured.fit import fit
 from app.model.measured.motion import BOUNDS, model_of, residuals_of
+from app.model.measured.table import read
 from tippe_core import Scales, Top, TopError
 
 FRAMES, RATE = 72, 60
@@ -19,6 +20,12 @@ KINDS = ("smoothed", "rolling", "viscous")
 LOSSES = ("rolling_resistance", "air_drag")
 LOSSY = range(2000, 2010)
 """Seeds of films with both losses."""
+HARD = ("outliers", "gaps", "slow", "unstated", "side", "above")
+"""Films as a class brings them: 5 % of the tilts wrong by 30 degrees; a quarter of the values missing, in two pieces;
+25 frames a second; no errors stated; of two points on the axis, from the side and from above."""
+WRONG, SHARE, SLOW, SLOW_FRAMES = np.radians(30), 0.05, 25, 40
+APART, BLUR, CAMERA = 0.034, 2e-4, 0.7
+"""m between the two points, m of noise in each place, rad: the camera's direction."""
 
 
 def case(seed):
@@ -38,17 +45,71 @@ def case(seed):
     return kind, top, Scales(R=rng.uniform(0.015, 0.02), M=0.01), truth
 
 
-def film(seed, what=("tilt", "spin")):
+def moved(seed, t):
+    """(axis (n, 3), spin (n,) in rad/s) of a case at the times t (s), until its motion ends."""
+    kind, top, scales, truth = case(seed)
+    axis, spin = (_rolled if kind == "rolling" else _slid)(top, truth, t / scales.time)
+    return axis, spin * scales.angular_velocity
+
+
+def film(seed, what=("tilt", "spin"), frames=FRAMES, rate=RATE):
     """(the case, its Data with noise)."""
-    kind, top, scales, truth = found = case(seed)
-    t = np.arange(FRAMES) / RATE
-    axis, spin = _rolled(top, truth, t / scales.time) if kind == "rolling" else _slid(top, truth, t / scales.time)
-    seen = {"tilt": np.arccos(axis[:, 2]), "spin": spin * scales.angular_velocity,
+    t = np.arange(frames) / rate
+    axis, spin = moved(seed, t)
+    seen = {"tilt": np.arccos(axis[:, 2]), "spin": spin,
             "azimuth": np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))}  # fmt: skip
     rng, count = np.random.default_rng([seed, 1]), len(axis)
     series = {name: Series(t[:count], seen[name] + ERRORS[name] * rng.normal(size=count), ERRORS[name])
               for name in what}  # fmt: skip
+    return case(seed), Data(MappingProxyType(series))
+
+
+def how(seed):
+    """A key of HARD for every fourth seed, of every kind alike, else ""."""
+    return HARD[seed // 4 // 3 % len(HARD)] if seed % 4 == 3 else ""
+
+
+def hard_film(seed, how):
+    """(the case, its Data) of a film as a class brings it; how: a key of HARD, or ""."""
+    if how in ("side", "above"):
+        t = np.arange(FRAMES) / RATE
+        table = read(tracked(("stem", "ball"), t, pictures(moved(seed, t)[0], how, seed)))
+        return case(seed), settled(table.of("", how))
+    found, data = film(seed, **({"frames": SLOW_FRAMES, "rate": SLOW} if how == "slow" else {}))
+    rng, series = np.random.default_rng([seed, 2]), dict(data.series)
+    if how == "outliers":
+        tilt = series["tilt"]
+        at = rng.choice(len(tilt.t), round(SHARE * len(tilt.t)), replace=False)
+        tilt.values[at] += WRONG * rng.choice([-1, 1], len(at))
+    elif how == "gaps":
+        for name, each in series.items():
+            size = len(each.t) // 8
+            gone = [rng.integers(0, len(each.t) - size) + np.arange(size) for _ in range(2)]
+            there = np.delete(np.arange(len(each.t)), np.concatenate(gone))
+            series[name] = Series(each.t[there], each.values[there], each.error)
+    elif how == "unstated":
+        rows = zip(data.t, *(each.values for each in series.values()), strict=True)
+        text = "".join("\t".join(f"{x:.6f}" for x in row) + "\n" for row in rows)
+        return found, settled(read("t (s)\ttilt (rad)\tspin (rad/s)\n" + text))
     return found, Data(MappingProxyType(series))
+
+
+def pictures(axis, view, seed=5, noise=BLUR):
+    """(stem, ball), (n, 2) each, in m: what a camera sees from there, while the ball rolls about."""
+    turned = axis[:, :2] @ np.array([[np.cos(CAMERA), -np.sin(CAMERA)], [np.sin(CAMERA), np.cos(CAMERA)]])
+    vector = turned if view == "above" else np.column_stack([turned[:, 0], axis[:, 2]])
+    t = np.arange(len(axis)) / RATE
+    rolls = np.column_stack([0.01 * np.sin(9 * t), 0.01 * np.cos(7 * t)])
+    ball = rolls if view == "above" else np.column_stack([rolls[:, 0], np.full(len(axis), 0.016)])
+    rng = np.random.default_rng(seed)
+    return [each + noise * rng.normal(size=each.shape) for each in (ball + APART * vector, ball)]
+
+
+def tracked(names, t, points, error=BLUR):
+    """A table of these points as Tracker writes it, with the error of a value behind its name."""
+    head = "t\t" + "\t".join(f"{name} {axis} (m) \u00b1 {error}" for name in names for axis in "xy")
+    rows = ["\t".join(f"{x:.6E}" for x in (when, *np.concatenate(row))) for when, *row in zip(t, *points, strict=False)]
+    return "\n".join([head, *rows]) + "\n"
 
 
 def _slid(top, truth, times):
@@ -87,8 +148,10 @@ def recovered(seed):
 
 
 def off_truth(found, truth):
-    """[(name, how many standard errors it is off the truth, of the side on which that lies)] of what it knows."""
-    rows = []
+    """[(name, how many standard errors it is off the truth, of the side on which that lies)] of what it knows. Of a
+    motion that the data do not tell from its mirror image, the truth is the one with a positive spin."""
+    rows, way = [], 1 if found.handed else np.sign(truth["spin"])
+    truth = truth | {name: way * truth[name] for name in ("spin", "across") if name in truth}
     for name in found.model.free:
         if name not in found.unknown:
             off = found.model.values[name] - truth[name]

@@ -240,7 +240,6 @@ def main():
     import mpmath  # noqa: F401
     import mujoco  # noqa: F401
     import numba  # noqa: F401
-    import panel_material_ui  # noqa: F401
     import playwright.sync_api  # noqa: F401
     import pytest  # noqa: F401
     import scipy.fft

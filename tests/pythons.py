@@ -26,7 +26,7 @@ from app.text import say
 
 ROOT = Path(__file__).parent.parent
 FIRST, LAST = 11, 14  # of Python 3; missing ones among these are reported
-SHOWN = ("panel", "bokeh", "param", "panel-material-ui", "numpy", "scipy", "tornado", "matplotlib", "segno", "numba")
+SHOWN = ("panel", "bokeh", "param", "numpy", "scipy", "tornado", "matplotlib", "segno", "numba")
 VISITORS = 4
 # Whether a panel of the Lab has its content.
 CHOSEN = """panel => {

@@ -15,7 +15,6 @@ from unittest.mock import Mock
 import panel as pn
 import panel.io.document
 import panel.reactive
-import panel_material_ui as pmui
 import param
 import pytest
 from bokeh.core.serialization import Serializer, UnknownReferenceError
@@ -100,8 +99,7 @@ def test_no_other_module_borrows(path):
 
 def test_the_test_finds_what_is_borrowed():
     assert foreign(Path(borrowed.__file__)) >= {"_executor", "_freeze_count", "_pop_freeze", "_dispatch_msgs",
-        "_WRITE_BLOCK", "_wrap_document_callback", "_priority_changes", "_busy__ignore", "_render_esm",
-        "_send_msg"}  # fmt: skip
+        "_WRITE_BLOCK", "_wrap_document_callback", "_priority_changes", "_busy__ignore", "_render_esm"}  # fmt: skip
 
 
 # --- of a server
@@ -139,7 +137,7 @@ def test_a_list_of_models_is_kept_no_longer_than_the_change_that_failed():
     """2."""
     document = Document()
     for freeze, of in ((DocumentModelManager.freeze, document.models), (panel.io.document.freeze_doc, document)):
-        named = {} if of is document.models else {"model": pmui.Button(), "properties": {}, "force": True}
+        named = {} if of is document.models else {"model": Div(), "properties": {}, "force": True}
         with pytest.raises(ZeroDivisionError), borrowed.thawed(freeze)(of, **named):
             assert document.models._freeze_count == 1
             1 / 0  # noqa: B018
@@ -296,7 +294,7 @@ def test_who_left_before_he_was_connected_leaves_no_connection(here):
 def sheets():
     """The addresses of the style sheets of a part whose document belongs to no server."""
     with set_curdoc(Document()):
-        found = pmui.Button().get_root().stylesheets
+        found = pn.widgets.Button().get_root().stylesheets
     return [sheet.url for sheet in found if isinstance(sheet, ImportedStyleSheet)]
 
 
@@ -428,24 +426,3 @@ def test_what_is_set_goes_out_as_panel_would_send_it(monkeypatch):
 def test_a_bundle_is_where_panel_says():
     """7."""
     assert borrowed.address_of(Bundled) == f"./components/app.bundle/Bundled/_bundle_path/static/{BUNDLE.name}"
-    path, _, version = borrowed.address_of(pmui.Page).partition("?")
-    assert path == "./static/extensions/panel-material-ui/panel-material-ui.bundle.js" and version
-
-
-def test_a_file_comes_whole_and_a_large_one_is_counted(monkeypatch):
-    """8."""
-
-    class Small(borrowed.WholeFile):
-        LARGEST = 4
-
-    assert {"_handle_msg", "_send_msg"} <= set(dir(pmui.FileInput))
-    with set_curdoc(Document()):
-        small = Small()
-    sent = {"status": "upload_event", "name": "a.json", "mime_type": "application/json"}
-    for data, refused in ((b"1234", 0), (b"12345", 1)):
-        small._handle_msg(sent | {"data": b"before"})
-        small._handle_msg(sent | {"data": data})
-        small._handle_msg({"status": "finished"})
-        assert (small.value, small.filename, small.refused) == (b"1234", "a.json", refused)
-    small._handle_msg({"status": "error"})
-    assert small.refused == 2

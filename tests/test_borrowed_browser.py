@@ -163,28 +163,6 @@ def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
     page.close()
 
 
-def test_what_changes_before_a_react_component_listens_is_shown(chromium, server):
-    """3. Panel's own way would not read the value again."""
-    page = chromium.new_page()
-    page.goto(f"{server}?tab=measure")
-    found = "Bokeh.documents.flatMap((each) => each.roots().flatMap((root) => [...root.references()]))"
-    found += ".find((one) => one instanceof Bokeh.Models.get('panel.models.esm.ReactComponent'))"
-    page.wait_for_function(f"() => {found}")
-    reads = f"""(way) => {{
-      const one = {found};
-      let count = 0;
-      const read = () => {{ count += 1 }};
-      way.call(one, null, "label", read, true);
-      const first = count;
-      one.unwatch(null, "label", read);
-      return first;
-    }}"""
-    kind = 'Bokeh.Models.get("panel.models.esm.ReactComponent").prototype'
-    assert page.evaluate(f"() => ({reads})({kind}.watch)") == 1
-    assert page.evaluate(f"() => ({reads})(Object.getPrototypeOf({kind}).watch)") == 0  # else not needed
-    page.close()
-
-
 def test_a_place_of_a_figure_is_where_its_scales_say(bare):
     """4. Each corner of the frame, compared with Bokeh's own events, which are public."""
     bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")

@@ -185,7 +185,7 @@ def test_three_tables_side_by_side_go_by_one_clock(chromium, server):
             f"t => {MODELS}.filter((m) => m.type == 'Span' && Math.abs(m.location - t) < 1e-4).length == 6",
             arg=40.0 * unit,
         )
-        shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
+        shown = page.evaluate(COLUMN, ["times-theta", "theta"])
         for values, table in zip(shown, ("ordinary", "rough", "ice"), strict=True):
             theta = np.degrees(motions[table].trajectory.theta)
             assert min(values) <= theta.min() + 1e-6 and max(values) >= theta.max() - 1e-6

@@ -1,7 +1,6 @@
 """The tab for building a body, without a browser: its fields, its sentences, and whether the body turns over."""
 
 import json
-import warnings
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -124,12 +123,6 @@ def test_every_dimension_of_an_inside_is_within_its_slider():
             shape = filled(preset.shape, "both")
             for dimension in INSIDES["both"]:
                 assert dimension.low <= value_of(shape, dimension.name) * dimension.factor <= dimension.high
-
-
-def test_nothing_of_it_is_to_go_from_panel(builder):
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", PendingDeprecationWarning)
-        assert Build(builder).saved.variant == "outlined"
 
 
 def test_many_pieces_have_their_controls_soon(builder, explorer):

@@ -160,7 +160,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     visit = go(server + "?v=1&KJ=6.5&mu=.4")
     scene = solve(Top.paper(), 6.5, 10.0, 0.4, 0.9)
     visit.page.get_by_role("button", name="Share").click()
-    visit.page.get_by_role("button", name="The paper’s figures of this motion").click()
+    visit.page.locator("summary", has_text="The paper’s figures of this motion").click()
 
     def button(says, label):
         """The field to the right of these words."""

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.model.arrival import TILT
+from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
 from app.model.start import Start, arrives
 from app.tabs.lab.lab import SLIDERS, LabTab, begin, spelled
@@ -131,6 +132,22 @@ def test_at_research_a_value_says_what_it_means_for_this_top(tab):
     assert shown(tab)["rubs"][-1][0] == "slip"
     tab.view.level = "explore"
     assert [name for name, *_ in shown(tab)["rubs"]] == ["patch"]
+
+
+def test_a_refused_constant_names_the_stage_as_old_at_research_only(tab):
+    """Below the steady precession there is no motion (E' of f = f' = 0), so the stage still has the one before."""
+    rolling = Explorer()
+    possible = rolling.scene
+    rolling.later(E=possible.marks.steady - 1, given="E")
+    rolling.settle()
+    tab.follow(rolling.scene)
+    assert shown(tab)["old"] == ""
+    tab.view.level = "research"
+    assert shown(tab)["old"] == f"energy {possible.constants.E:.6g}"
+    rolling.later(E=possible.constants.E, given="E")
+    rolling.settle()
+    tab.follow(rolling.scene)
+    assert shown(tab)["old"] == ""
 
 
 def test_the_papers_figures_are_asked_for(tab):

@@ -59,7 +59,7 @@ def decimal_commas(page):
     field.press("Enter")
     page.wait_for_function("() => /KJ=6\\.5/.test(location.search)")
     page.get_by_role("radio", name=say("research.panels.time", "de")).click()
-    page.locator("[data-figure=planes-theta]").wait_for()
+    page.locator("[data-figure=times-theta]").wait_for()
     for given in ([-0.5, 0.1 + 0.2, 1], [0, 0.5, 1], [-2e-7, -1e-7, 0], [0, 50000, 100000], [1.0001, 1.0002], []):
         ours, theirs = page.evaluate(TICKS, given)
         assert ours == [each.replace(".", ",") for each in theirs], given

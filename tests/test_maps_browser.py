@@ -24,7 +24,7 @@ def come(context, server):
     Visit(page, f"{server}?v=1&tab=maps&map=spin_5_50_tilt_1_40_contensou_10_6_9", whole=False)
     page.get_by_role("status").filter(has_text="28.6 rev/s, 5.7").wait_for()
     page.wait_for_function(f"() => ({SIDE})() == 9")
-    page.get_by_role("button", name="Stop").and_(page.locator(":disabled")).wait_for()
+    page.get_by_role("button", name="Stop").and_(page.locator("[aria-disabled=true]")).wait_for()
     return page
 
 

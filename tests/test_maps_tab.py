@@ -137,7 +137,9 @@ def test_another_axis_law_and_colour(tab):
     assert tab.asked.law == "smoothed" and tab.asked.start["second"] == 0.1
     tab.settings.choices["up"].value = "mu"
     assert (
-        tab.asked.up_range == (0.05, 0.6) and not tab.settings.rows["mu"].visible and tab.settings.rows["tilt"].visible
+        tab.asked.up_range == (0.05, 0.6)
+        and not tab.settings.entries["mu"].visible
+        and tab.settings.entries["tilt"].visible
     )
     tab.settings.choices["colour"].value = "growth"
     assert tab.asked.nudged and np.isfinite(tab.level.columns["growth"]).any()
@@ -160,7 +162,7 @@ def test_the_button_looks_closer_around_the_bead_and_never_beyond_the_map(tab):
 
 def test_as_many_reasons_as_there_are_can_be_gone_to():
     tab = Maps()
-    shown = [row.visible for row in tab.show_rows]
+    shown = [row.visible for row in tab.shows]
     assert 2 < sum(shown) == len(tab._ones) and shown == sorted(shown, reverse=True)
     assert (
         "630 of the 1,465 runs" in tab.whys[0].object and "561 of them: they come onto the stem" in tab.whys[0].object
@@ -243,13 +245,13 @@ def test_a_link_has_the_map_of_the_pages_own_top(few_cells):
 def test_the_run_of_the_bead_goes_to_the_lab():
     thrown = []
     tab = Maps(throw=lambda *start: thrown.append(start))
-    assert tab.thrown_row.visible and not thrown  # the map alone sets no start
+    assert tab.thrown.visible and not thrown  # the map alone sets no start
     tab.choice.asked = replace(Map(), across_range=(20.0, 30.0), cells=3)
     assert not thrown
     tab.go(30.0, 8.0)
     assert thrown == [("Leine and Glocker's toy", 30.0, 8.0, 0.3, False)]
     tab.settings.choices["law"].value = "viscous"
-    assert not tab.thrown_row.visible
+    assert not tab.thrown.visible
 
 
 def test_the_map_that_ships_is_what_is_computed():

@@ -106,9 +106,9 @@ def test_of_a_film_of_hours_a_part_is_fitted(monkeypatch):
     made = Measure(Explorer().scene)
     monkeypatch.setattr(shown, "shown", lambda model, data: pytest.fail("run") if np.ptp(data.t) > LONGEST else None)
     made.take(long_table(1.0))
-    assert made.part.value == (0, LONGEST) and "599 s" in made.said.object and not made.start.disabled
+    assert made.part.value == [0, LONGEST] and "599 s" in made.said.object and not made.start.disabled
     made._pulled(300.0)
-    assert made.part.value == (300.0, 300.0) and "8 measured values, and at most 60 s" in made.said.object
+    assert made.part.value == [300.0, 300.0] and "8 measured values, and at most 60 s" in made.said.object
     made.take(long_table(30.0))
     assert "ms as the unit" in made.said.object and made.start.disabled and made.part.end == pytest.approx(17_970)
 

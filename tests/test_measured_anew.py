@@ -53,7 +53,7 @@ def fitted():
     tab = Measure(Explorer().scene)
     tab.take_example("slips")
     tab.compute()
-    tab.home.in_link.value = True
+    tab.home.in_link.value = ["link"]
     assert "This top slipped." in tab.found.object and tab.filmed.film and tab.stage.frames and tab.home.fit
     return tab
 

@@ -70,7 +70,7 @@ def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
     one = Measure(Explorer().scene)
     one.take_example("slips")
     one.compute()
-    one.home.in_link.value = True
+    one.home.in_link.value = ["link"]
     monkeypatch.setattr(work, "fit", lambda *_: pytest.fail("fitted anew"))
     other = Measure(Explorer().scene)
     other.filmed.film = one.filmed.film
@@ -135,7 +135,7 @@ def test_the_tab_opens_what_its_link_says():
     """With the law, what is free, the part and the top of the film, whatever the page's top is."""
     one = Measure(Explorer().scene)
     one.take(written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes()))))
-    assert (one.law.value, one.loose.value, one.part.value) == ("viscous", ["losses", "body"], (0.1, 0.7))
+    assert (one.law.value, one.loose.value, one.part.value) == ("viscous", ["losses", "body"], [0.1, 0.7])
     assert one._body[0] == FILM.top and "saved film" in one.about.object
     other = Measure(Explorer().scene)
     other.filmed.film = packed(one._film())

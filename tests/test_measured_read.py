@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
+from app.model.measured import read as read_file
 from app.model.measured.cells import MeasuredError
 from app.model.measured.data import settled
 from app.model.measured.names import understood
@@ -44,6 +45,13 @@ PROGRAMS = {
                                 T, TILT, SPIN, between=","),
     "Graphical Analysis 4": table(("Run 1: Time (s)", "Run 1: Angle (rad)", "Run 1: Angular Velocity (rad/s)"),
                                   T, TILT, SPIN, between=","),
+    "Capstone, copied from its table": "Run #1\tRun #1\tRun #1\tRun #2\n" + table(
+        ("Time (s)", "Angle (rad)", "Angular Velocity (rad/s)", "Angle (rad)"), T, TILT, SPIN, 2 * TILT),
+    "a column of words": "who;t;theta;omega\n" + "".join(
+        f"Anna;{t:.4f};{a:.4f};{w:.4f}\n" for t, a, w in zip(T, TILT, SPIN, strict=True)),
+    "AndroSensor's names": "".join(["theta;GYROSCOPE Z (rad/s);Time since start in ms ;YYYY-MO-DD HH-MI-SS_SSS\n", *(
+        f"{a:.4f};{w:.4f};{1000 * t:.1f};2026-02-15 12:26:41:{1000 * t:03.0f}\n"
+        for t, a, w in zip(T, TILT, SPIN, strict=True))]),
     "MATLAB": "% made by hand\n" + table(("% t", "theta", "omega3"), T, TILT, SPIN, between=" ", form="{:.6e}".format),
     "numpy": "# t,theta,omega3\n" + table((), T, TILT, SPIN, between=","),
     "a comment in C": "// by our logger\n" + table(("t", "theta", "omega3"), T, TILT, SPIN, between=";"),
@@ -66,6 +74,9 @@ PROGRAMS = {
     "a clock past midnight": "Uhrzeit;theta;omega\n" + "".join(
         f"{'23:59:59' if t < 0.2 else '00:00:00'},{t + 0.8 - (t >= 0.2):.6f};{a:.4f};{w:.4f}\n".replace(",0.", ",")
         .replace(".", ",") for t, a, w in zip(T, TILT, SPIN, strict=True)),
+    "a clock with twelve hours": "time,theta,omega\n" + "".join(
+        f"{'12:59:59' if t < 0.2 else '1:00:00'}{(t + 0.8) % 1:.6f} PM,{a:.4f},{w:.4f}\n".replace("590.", "59.")
+        .replace("000.", "00.") for t, a, w in zip(T, TILT, SPIN, strict=True)),
     "ISO times": "timestamp,theta,omega\n" + "".join(
         f"2026-02-15T12:26:{41 + t:07.4f}Z,{a:.4f},{w:.4f}\n" for t, a, w in zip(T, TILT, SPIN, strict=True)),
 }
@@ -103,6 +114,43 @@ def test_of_several_runs_the_first_is_shown_and_another_can_be_chosen():
     second = settled(found.of("Run #2", "")).series
     np.testing.assert_allclose(second["tilt"].values, 2 * TILT[:12], atol=1e-4)
     np.testing.assert_allclose(second["spin"].t, T[:12], atol=1e-4)
+
+
+def test_a_run_without_a_time_of_its_own_has_that_of_the_first():
+    """As Capstone exports a table with one column of the time."""
+    found = read(table((*CAPSTONE[:2], "Angle (rad) Run #3"), T, TILT, 2 * TILT))
+    for run, size in (("Run #1", 1), ("Run #3", 2)):
+        np.testing.assert_allclose(settled(found.of(run, "")).series["tilt"].values, size * TILT, atol=1e-4)
+
+
+@pytest.mark.parametrize(("name", "quantity"), [
+    ("Gyroscope.csv", "spin"), ("a.csv", "spin"), ("Accelerometer.csv", ""), ("Gravity.csv", "")])  # fmt: skip
+def test_a_loggers_file_of_another_sensor_is_no_spin(name, quantity):
+    assert [column.quantity for column in read_file(name, PROGRAMS["Sensor Logger"].encode()).columns] == [
+        "", "time", quantity, "", ""]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_file_gives_what_is_written_and_what_that_is_in_si(name):
+    found = read_file(name, PROGRAMS[name].encode("utf-8"))
+    of = {column.quantity: column for column in found.columns if column.quantity}
+    assert (of["spin"].unit, of["spin"].si[0]) == ("rad/s", pytest.approx(SPIN[0])) and of["time"].unit in ("s", "ms")
+    np.testing.assert_allclose(np.diff(of["time"].si), np.diff(T), atol=2e-4)
+    np.testing.assert_allclose(of["time"].values * {"s": 1, "ms": 1e-3}[of["time"].unit], of["time"].si)
+    if "tilt" in of:
+        np.testing.assert_allclose(of["tilt"].si, TILT, atol=1e-4)
+
+
+def test_of_a_long_file_some_rows_are_read_and_an_error_is_a_sentence():
+    found = read_file("long.csv", table(("t (s)", "tilt (rad)"), np.arange(40_000) / 1e3, np.ones(40_000)).encode())
+    assert 1000 < len(found.lines) <= 5000 and found.columns[0].si[-1] > 39
+    for data, part in (
+        (b"", "nothing in this table"),
+        (b"1" * 10_000_000, "lines are so long"),
+        (b"PK\x03\x04", "damaged"),
+    ):
+        with pytest.raises(MeasuredError, match=part):
+            read_file("any", data)
 
 
 def test_a_comma_that_may_be_either_is_not_guessed():
@@ -149,7 +197,7 @@ def test_the_page_asks_for_a_run_and_a_view_only_where_a_file_leaves_them_open()
     assert asked(tab) == []
     names = *CAPSTONE, *(name.replace("#1", "#2") for name in CAPSTONE)
     tab.take(table(names, T, TILT, SPIN, T, 2 * TILT, SPIN))
-    assert asked(tab) == [True] and tab.asks.run.options == ["Run #1", "Run #2"]
+    assert asked(tab) == [True] and [*tab.asks.run.options] == ["Run #1", "Run #2"]
     tab.asks.run.value = "Run #2"
     np.testing.assert_allclose(tab._data.series["tilt"].values, 2 * TILT, atol=1e-4)
     tab.take(PROGRAMS["a clock"])

@@ -11,30 +11,12 @@ from app.model.measured.fit import fit
 from app.model.measured.motion import model_of, residuals_of
 from app.model.measured.table import read
 
-APART, NOISE, CAMERA = 0.034, 2e-4, 0.7  # m, m, rad
 T = np.arange(bodies.FRAMES) / bodies.RATE
-
-
-def pictures(axis, view, seed=5, noise=NOISE):
-    """(stem, ball), (n, 2) each, in m: what a camera sees that looks at the top from this side."""
-    turned = axis[:, :2] @ np.array([[math.cos(CAMERA), -math.sin(CAMERA)], [math.sin(CAMERA), math.cos(CAMERA)]])
-    vector = turned if view == "above" else np.column_stack([turned[:, 0], axis[:, 2]])
-    rolls = np.column_stack([0.01 * np.sin(9 * T), 0.01 * np.cos(7 * T)])[: len(axis)]
-    ball = rolls if view == "above" else np.column_stack([rolls[:, 0], np.full(len(axis), 0.016)])
-    rng = np.random.default_rng(seed)
-    return [each + noise * rng.normal(size=each.shape) for each in (ball + APART * vector, ball)]
-
-
-def tracker(names, *points, error=NOISE):
-    """A table of these points, with the error of a value behind its name."""
-    head = "t\t" + "\t".join(f"{name} {axis} (m) \u00b1 {error}" for name in names for axis in "xy")
-    rows = ["\t".join(f"{x:.6E}" for x in (t, *np.concatenate(row))) for t, *row in zip(T, *points, strict=False)]
-    return "\n".join([head, *rows]) + "\n"
 
 
 def moved(seed):
     _, top, scales, truth = bodies.case(seed)
-    return top, scales, truth, bodies._slid(top, truth, T / scales.time)[0]
+    return top, scales, truth, bodies.moved(seed, T)[0]
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +28,7 @@ def filmed():
 def test_the_true_motion_leaves_nothing_but_noise_in_either_picture(view, filmed):
     """The camera's direction and the points' distance are fitted, whatever they are called and wherever the ball is."""
     top, scales, truth, axis = filmed
-    table = read(tracker(("A", "B"), *pictures(axis, view)))
+    table = read(bodies.tracked(("A", "B"), T, bodies.pictures(axis, view)))
     assert table.view == view
     data = settled(table)
     assert {*data.series} == ({"axis_x", "axis_y"} if view == "above" else {"axis_side", "axis_up"})
@@ -54,7 +36,7 @@ def test_the_true_motion_leaves_nothing_but_noise_in_either_picture(view, filmed
     assert left.row @ left.row == pytest.approx(len(left.row), abs=4 * math.sqrt(2 * len(left.row)))
     length = np.hypot(*(left.values[name] for name in data.series))
     if view == "above":
-        np.testing.assert_allclose(length, APART * np.hypot(*axis.T[:2]), atol=NOISE)
+        np.testing.assert_allclose(length, bodies.APART * np.hypot(*axis.T[:2]), atol=bodies.BLUR)
     away = truth | {"spin": 1.05 * truth["spin"]}
     other = residuals_of(model_of("smoothed", top, scales).with_values(away), data).row
     assert other @ other > 2 * len(other)
@@ -64,7 +46,7 @@ def test_the_true_motion_leaves_nothing_but_noise_in_either_picture(view, filmed
 def test_the_wrong_view_does_not_fit(view, filmed):
     top, scales, truth, axis = filmed
     other = {"side": "above", "above": "side"}[view]
-    data = settled(read(tracker(("stem", "ball"), *pictures(axis, view))).of("", other))
+    data = settled(read(bodies.tracked(("stem", "ball"), T, bodies.pictures(axis, view))).of("", other))
     left = residuals_of(model_of("smoothed", top, scales).with_values(truth), data).row
     assert left @ left > 10 * len(left)
 
@@ -72,7 +54,7 @@ def test_the_wrong_view_does_not_fit(view, filmed):
 def test_one_angle_from_the_side_is_that_of_the_axis_in_the_picture(filmed):
     """Tracker's position angle of the stem's end, in degrees from +x, with the origin in the ball."""
     top, scales, truth, axis = filmed
-    stem, ball = pictures(axis, "side", noise=0.0)
+    stem, ball = bodies.pictures(axis, "side", noise=0.0)
     turn = np.degrees(np.arctan2(*(stem - ball).T[::-1])) + np.random.default_rng(3).normal(size=len(axis))
     rows = "".join(f"{t:.6E}\t{each:.6E}\n" for t, each in zip(T, turn, strict=False))
     data = settled(read("t (s)\t\u03b8r (deg) \u00b1 1\n" + rows))
@@ -86,8 +68,8 @@ def test_a_film_of_two_points_gives_the_numbers_of_its_motion(view, filmed):
     top, scales, truth, axis = filmed
     held = {name: truth[name] for name in ("mu", "eps")}  # the rest of them: tests/measured_proof.py
     found = fit(
-        model_of("smoothed", top, scales, **held), settled(read(tracker(("stem", "ball"), *pictures(axis, view))))
+        model_of("smoothed", top, scales, **held),
+        settled(read(bodies.tracked(("stem", "ball"), T, bodies.pictures(axis, view)))),
     )
-    truth = truth if view == "above" else truth | {"spin": abs(truth["spin"])}  # its mirror image looks the same
     off = bodies.off_truth(found, truth)
     assert len(off) == 2 and max(abs(each) for _, each in off) < 3.5 and not found.refused

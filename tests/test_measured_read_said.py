@@ -1,20 +1,24 @@
 """What a fit says that is wrong with its data: values far off, errors too large, numbers that a bound decided."""
 
+import json
 import re
+from dataclasses import replace
 
 import measured_bodies as bodies
 import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
+from app.model.measured import fit as search
 from app.model.measured.data import Data, Series, roughness
 from app.model.measured.film import table_of
 from app.model.measured.fit import FAR, Fit, verdict
 from app.model.measured.motion import BOUNDS, Residuals, model_of, residuals_of, shifted
+from app.model.measured.remembered import checked, remembered, said_of
 from app.model.measured.report import program, residuals_table
 from app.model.measured.work import Found
 from app.tabs.measure.measure import Measure
-from app.tabs.measure.words import far_words, found_words, numbers_table
+from app.tabs.measure.words import far_words, found_words, models_table, numbers_table
 from app.text import LANGUAGES, speaking
 from tippe_core import Scales, Top
 
@@ -104,6 +108,45 @@ def test_ruled_out_says_for_which_start():
     assert "rolling is ruled out, with any start" in found_words(a_fit("rolling", row=far)[0], a_fit()[0], {})
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_model_that_was_given_up_says_so_and_is_ruled_out(language):
+    """Also of a saved film."""
+    far, (rolling, data) = np.full(len(T), 90.0), a_fit("rolling")
+    sliding = replace(a_fit(row=far)[0], sure=False)
+    assert verdict(rolling, sliding) == "unsure"
+    sliding = replace(sliding, given_up=True)
+    said = json.loads(json.dumps(said_of(sliding)))
+    with speaking(language):
+        for fit in (sliding, remembered(sliding.model, data, checked(said, sliding.model))):
+            assert fit.given_up and verdict(rolling, fit) == "rolled"
+            says = found_words(rolling, fit, {}) + models_table(rolling, fit)
+            for part in {"en": ("50 times", "given up"), "de": ("50-mal", "auf\u00adgegeben")}[language]:
+                assert part in says and part not in found_words(rolling, rolling, {}) + models_table(rolling, rolling)
+
+
+@pytest.mark.parametrize(("times", "given_up", "starts"), [(1.05, True, search.AGREEING), (0.95, False, search.STARTS)])
+def test_a_model_that_stays_far_worse_is_given_up_after_a_few_starts(times, given_up, starts, monkeypatch):
+    """Wherever a search starts, it ends at the same chi-square: that of a right model, and WORSE times as much."""
+    ends = {"rolling": 1.0, "smoothed": times * search.WORSE}
+    whole = {name: 0 for name in ends}
+
+    def followed(problem, x, steps, row=search.ALL, exactly=False):
+        whole[problem.model.name] += row is search.ALL and not exactly
+        return ends[problem.model.name] * problem.count, x
+
+    monkeypatch.setattr(search.Problem, "followed", followed)
+    monkeypatch.setattr(search.Problem, "best_of", lambda problem, starts, most, row=search.ALL: starts[:most])
+    monkeypatch.setattr(search, "scattered", lambda model, data: [])
+    monkeypatch.setattr(search, "_judged", lambda problem, x, sure, others, given_up=False: given_up)
+    data = Data({"tilt": Series(T, np.full(len(T), 0.3), 0.01)})
+    rolling, sliding = (model_of(name, Top.paper(), SIZES) for name in ends)
+    assert search.fit_both((rolling, sliding), data) == (False, given_up)
+    assert whole["smoothed"] == starts
+    assert search.fit_both((sliding, rolling), data) == (given_up, False)
+    ends["rolling"] = ends["smoothed"] = search.NO_MOTION**2  # neither is a motion
+    assert search.fit_both((rolling, sliding), data) == (False, False)
+
+
 def test_values_that_are_far_off_can_be_left_out(monkeypatch):
     """As where Tracker jumps: 3 of 60 tilts wrong by 30 degrees; without them the law that made the film fits."""
     kind, top, scales, truth = bodies.case(2)
@@ -132,7 +175,7 @@ def test_values_that_are_far_off_can_be_left_out(monkeypatch):
     assert not tab.leave.visible
     tab.compute()
     assert tab.leave.visible and "3 of 120 values" in tab.found.object and fitted[0].refused
-    tab._leave(None)
+    tab._leave()
     assert not tab.leave.visible and not fitted[1].refused and len(tab._data.series["tilt"].t) == 57
     assert "6 errors off" not in tab.found.object
 

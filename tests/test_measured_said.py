@@ -11,7 +11,7 @@ from app.model.measured import fit as fits
 from app.model.measured.data import Data, Series, settled
 from app.model.measured.film import Film, opened, written
 from app.model.measured.kept import Kept, kept
-from app.model.measured.motion import model_of, residuals_of, shifted
+from app.model.measured.motion import START, model_of, residuals_of, shifted
 from app.model.measured.report import program, residuals_table
 from app.model.measured.shown import shown
 from app.model.measured.table import MeasuredError, read
@@ -115,13 +115,14 @@ def test_the_program_taken_home_asks_for_the_same_fit(monkeypatch):
     start, end = float(T[13]), float(T[37])  # no round numbers
     part = data.between(start, end)
 
-    def stopped(model, data):
-        asked.append((model, data))
-        return alike(0.7)
+    def stopped(both, data):
+        asked.append((both, data))
+        return alike(0.7), alike(0.7)
 
-    monkeypatch.setattr(fits, "fit", stopped)
+    monkeypatch.setattr(fits, "fit_both", stopped)
     exec(program(data, (replace(alike(0.7), model=model),), loose, start, end), {})
-    ((again, seen),) = asked
+    (((rolling, again), seen),) = asked
+    assert (rolling.name, rolling.free) == ("rolling", (*START, "a"))  # air drag is none of rolling's
     assert (again.name, again.free, again.top) == (model.name, model.free, model.top)
     assert (again.edge, again.tip) == (model.edge, model.tip) and again.edge is not None
     assert again.scales == SCALES

@@ -33,7 +33,7 @@ from app.tabs.build.build import Build
 from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
-from app.tabs.lab.figures import Figures, Well
+from app.tabs.lab.figures import Times, Well
 from app.tabs.lab.rolling import Rolling
 from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps
@@ -285,7 +285,7 @@ def test_a_view_works_alone_and_shows_the_last_scene_whatever_came_before(alone,
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", [Figures, Well])
+@pytest.mark.parametrize("kind", [Times, Well])
 def test_the_figures_of_a_run_work_alone(alone, kind):
     make, first, other = of_scenes(kind), ran(TOPS[0]), ran(TOPS[2])
     found, expected = shown(make, first, other), shown(make, other, other)

@@ -1,21 +1,92 @@
-"""A server that does not answer, though its line is open: the page says so."""
+"""A line that is slow or cut without a word, a server that does not answer though its line is open, and a tab that
+slept: the page says so, and comes back."""
 
 import os
 import signal
+import socket
 import sys
+import threading
+from contextlib import contextmanager, suppress
 
 import pytest
 from serving import served
+from test_faults import HERE, has_come_back, set_spin
+from visiting import free_port
+from watching import LOST
+
+from app.text import say
 
 pytestmark = [pytest.mark.served, pytest.mark.skipif(sys.platform == "win32", reason="no process is stopped there")]
+SILENT = "has not answered"
 
 
-def test_a_server_that_hangs_is_said_and_what_was_set_is_done_when_it_goes_on(tmp_path, chromium):
+@pytest.fixture
+def page(chromium, page_errors):
+    page_errors.allow(f"{LOST}|Failed to load Bokeh|Error rendering Bokeh items")
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+    yield page
+    page.close()
+
+
+class Line:
+    """A line to a server, at a port of its own. cut(): what is on it from now on is lost, in both directions, without
+    a word; a connection that is made after mend() is a new line."""
+
+    def __init__(self, port):
+        self.port, self._to, self._lines = free_port(), port, []
+        self._open = threading.Event()
+        self._open.set()
+        self._listening = socket.create_server(("127.0.0.1", self.port))
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def cut(self):
+        self._open.clear()
+        for each in self._lines:
+            each.set()
+
+    def mend(self):
+        self._open.set()
+
+    def close(self):
+        self._listening.close()
+
+    def _accept(self):
+        with suppress(OSError):
+            while True:
+                here, _ = self._listening.accept()
+                there = socket.create_connection(("127.0.0.1", self._to))
+                lost = threading.Event()
+                if not self._open.is_set():
+                    lost.set()
+                self._lines.append(lost)
+                for one, other in ((here, there), (there, here)):
+                    threading.Thread(target=self._carry, args=(one, other, lost), daemon=True).start()
+
+    @staticmethod
+    def _carry(one, other, lost):
+        with suppress(OSError):
+            while data := one.recv(65536):
+                if not lost.is_set():
+                    other.sendall(data)
+            if not lost.is_set():
+                other.shutdown(socket.SHUT_WR)
+
+
+@contextmanager
+def line_to(server):
+    """A Line to a server, and the address of the page over it."""
+    line = Line(int(server.root.rsplit(":", 1)[1]))
+    try:
+        yield line, f"http://127.0.0.1:{line.port}/app"
+    finally:
+        line.close()
+
+
+def test_a_server_that_hangs_is_said_and_what_was_set_is_done_when_it_goes_on(page, tmp_path):
     with served(tmp_path / "log") as server:
-        page = chromium.new_page(reduced_motion="reduce")
         page.goto(server.url)
-        page.wait_for_function("globalThis.Bokeh?.documents?.length")
-        says = page.get_by_role("alert").filter(has_text="has not answered")
+        page.wait_for_function(HERE)
+        says = page.get_by_role("alert").filter(has_text=SILENT)
         os.kill(server.process.pid, signal.SIGSTOP)
         try:
             page.get_by_role("radio", name="Rough").click()
@@ -24,4 +95,32 @@ def test_a_server_that_hangs_is_said_and_what_was_set_is_done_when_it_goes_on(tm
             os.kill(server.process.pid, signal.SIGCONT)
         says.wait_for(state="detached")
         page.wait_for_function("location.search.includes('rough')")
-        page.close()
+
+
+def test_a_line_that_was_cut_without_a_word_is_said_then_lost_and_the_page_comes_back_with_what_was_set(page, tmp_path):
+    with served(tmp_path / "log") as server, line_to(server) as (line, url):
+        page.goto(url)
+        set_spin(page, "29.5")
+        line.cut()
+        page.get_by_role("radio", name="Rough").click()
+        page.get_by_role("alert").filter(has_text=SILENT).wait_for()
+        page.get_by_role("alert").filter(has_text=say("main.lost", "en")).wait_for()
+        assert page.evaluate("window.mark") == 1  # nothing answers: there is nothing to load
+        line.mend()
+        has_come_back(page, "29.5")
+
+
+def test_a_tab_that_slept_while_its_server_was_replaced_comes_back_and_so_does_one_that_is_restored(page, tmp_path):
+    """Asleep a page runs no line of its scripts; a tab that was closed is loaded anew, with a token of its own."""
+    port = free_port()
+    devtools = page.context.new_cdp_session(page)
+    with served(tmp_path / "log", port=port) as server:
+        page.goto(server.url)
+        set_spin(page, "29.5")
+        devtools.send("Page.setWebLifecycleState", {"state": "frozen"})
+    with served(tmp_path / "log", port=port):
+        devtools.send("Page.setWebLifecycleState", {"state": "active"})
+        has_come_back(page, "29.5")
+        page.goto("about:blank")
+        page.go_back()
+        has_come_back(page, "29.5")

@@ -20,6 +20,7 @@ from app.model.setup import FARTHEST_TURN, LEAST_FRAMES, MOST_FRAMES, MOST_SECON
 from app.tabs.lab.words import ball_words, is_caught, scatter_words
 from app.text import speaking
 from tippe_core import (
+    Constants,
     Coulomb,
     Scales,
     State,
@@ -376,11 +377,22 @@ def test_a_fast_swing_keeps_its_width():
 def test_tracks_are_in_the_units_of_the_page():
     motion = on_ordinary(by_hand(seconds=1.0))
     scales = motion.start.scales
-    found = tracks(motion, scales)
+    found = tracks(motion.trajectory, scales)
     assert found["theta"].value[0] == pytest.approx(10.0) and found["omega3"].value[0] == pytest.approx(20.0)
     assert found["theta"].t[-1] == pytest.approx(1.0, abs=1e-3)
     metres = np.sqrt(scales.R * 9.81)  # R and (R/g)^1/2 in a second
     assert found["slip"].value.max() == pytest.approx(100 * metres * motion.slip.max(), rel=2e-3)
+    given, state = motion.start, motion.start.state
+    first = Constants.from_state(given.top, state.theta, state.theta_dot, state.omega2, state.omega3)
+    assert [found[name].value[0] for name in ("K_J", "K_R")] == pytest.approx([first.K_J, first.K_R], rel=1e-9)
+    assert 0.5 * given.mu < np.nanmax(found["ratio"].value) <= given.mu * (1 + 1e-6)  # no table gives more
+
+
+def test_nothing_has_a_ratio_of_forces_in_the_air():
+    """A top that is thrown up: by its stem, as its events say."""
+    motion = on_ordinary(example("Flips" if "Flips" in EXAMPLES else HAND, seconds=2.0))
+    found = tracks(motion.trajectory, motion.start.scales)["ratio"]
+    assert np.isnan(found.value).any() == (motion.trajectory.force[:, 2] <= 0).any()
 
 
 # ---- what is said ----

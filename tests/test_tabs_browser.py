@@ -92,6 +92,6 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
         button.wait_for()
         assert again.evaluate(ROWS) == rows and button.is_enabled()
         button.click()
-        again.get_by_role("button", name="Cancel").and_(again.locator(":enabled")).wait_for()
+        again.get_by_role("button", name="Cancel").and_(again.locator("[aria-disabled=false]")).wait_for()
         again.wait_for_function(f"rows => ({ROWS})() == rows", arg=rows)
         again.close()

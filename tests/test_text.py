@@ -13,11 +13,13 @@ from text_files import APP, MODULES, every, files, name_of, tree
 
 from app.bundle import Bundled
 from app.text import DEFAULT, LANGUAGES, preferred, say, written
+from app.widgets.forms import Part
 
 OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 
 # Values that are equal in every language, by file.table.key: names, and keys of other tables.
 SAME = (
+    "planes.units.slip",
     "sources.*.short",
     "history.part.*.sources.*",
     "planes.survives.*",
@@ -130,9 +132,11 @@ def components():
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize(("name", "script"), components(), ids=[name for name, _ in components()])
 def test_what_the_bundle_asks_for_is_there(name, script, language):
-    module = next(path for path in MODULES if re.search(rf"^class {name}\(Bundled\)", path.read_text("utf-8"), re.M))
+    module = next(
+        path for path in MODULES if re.search(rf"^class {name}\((Bundled|Part)\)", path.read_text("utf-8"), re.M)
+    )
     importlib.import_module(".".join(module.relative_to(APP.parent).with_suffix("").parts))
-    [component] = [kind for kind in Bundled.__subclasses__() if kind.__name__ == name]
+    [component] = [kind for kind in (*Bundled.__subclasses__(), *Part.__subclasses__()) if kind.__name__ == name]
     known = set(component.says(language))
     wanted = {
         key for path in modules_of(script) for key in re.findall(r"\btexts\.(\w+)", path.read_text(encoding="utf-8"))

@@ -1,5 +1,5 @@
 // The language of the page, and the Lab of the arrival, before any script of Bokeh's: first.py says what with, and why.
-const { language, bundles: [bundle, ...others], numbers, searches } = JSON.parse(document.getElementById("early")?.textContent ?? "");
+const { language, bundle, numbers, searches } = JSON.parse(document.getElementById("early")?.textContent ?? "");
 document.documentElement.lang = language;
 
 // Bokeh's scripts come after it. What the page asks of Bokeh until then is kept.
@@ -27,7 +27,6 @@ async function later() {
   if (isTime) return;
   isTime = true;
   await parsed;
-  for (const href of others) document.head.append(Object.assign(document.createElement("link"), { rel: "modulepreload", href }));
   const { content } = /** @type {HTMLTemplateElement} */ (document.getElementById("later"));
   /** @type {any[]} */
   const coming = [];

@@ -3,8 +3,8 @@ there.
 
 On arrival the Lab is the same in every session. Its words are written into the page; its numbers are in a file that the
 browser caches. early.js requests the file, frontend/src/first.js draws both, and hands the picture over to the
-session's component once that is there. Bokeh's scripts and the widgets' bundle, four times as large, are fetched
-after that; on any other address at once.
+session's component once that is there. Bokeh's scripts, twice as large, are fetched after that; on any other address
+at once.
 
     python -m app.page.first
 
@@ -19,7 +19,6 @@ from pathlib import Path
 from urllib.parse import urlencode
 
 import numpy as np
-import panel_material_ui as pmui
 from panel.custom import JSComponent
 
 from app.borrowed import address_of
@@ -29,10 +28,11 @@ from app.state import names
 from app.state import opened as room
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
-from app.widgets.theme import FAMILY
+from app.widgets.look import FAMILY
 from app.widgets.waiting import waiting
 
 PAGE = Path(__file__).with_name("first.html")
+TEMPLATE = PAGE.read_text(encoding="utf-8")
 EARLY, BORROWED = inlined(PAGE.with_name("early.js")), inlined(PAGE.parents[1] / "borrowed.js")
 FILE = Path(__file__).with_name("arrival.gz")
 FRAME, POSE, CURVE = 21, 11, 8  # columns: of a frame (pack_frames), of these its pose, and of a curve
@@ -94,12 +94,12 @@ def version():
 
 
 def variables(language):
-    """The variables of the template PAGE; language: that of the page."""
+    """The variables of TEMPLATE; language: that of the page."""
     address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.name}"
-    bundles = [address_of(kind) for kind in (Bundled, pmui.Page)]
-    early = {"language": language, "bundles": bundles, "searches": searches(),
+    bundle = address_of(Bundled)
+    early = {"language": language, "bundle": bundle, "searches": searches(),
              "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
-    return {"bundles": bundles, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
+    return {"bundle": bundle, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
             "early_script": EARLY, "borrowed": BORROWED, "family": FAMILY, "waiting": waiting(language)}  # fmt: skip
 
 

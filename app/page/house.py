@@ -3,7 +3,6 @@
 from functools import partial
 
 import panel as pn
-import panel_material_ui as pmui
 
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
@@ -25,9 +24,10 @@ from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
 from app.text import say
-from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
+from app.widgets.cards import card, flexible, later, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt, full, waits
+from app.widgets.forms import Button
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D, show_top
 
@@ -47,7 +47,6 @@ BESIDE = """
 # The Lab stays in sight while what is beside it scrolls.
 STAYS = {"position": "var(--stays, static)", "top": "calc(48px * var(--type, 1))"}
 COLUMNS = {True: "minmax(0, 57fr) minmax(0, 43fr)", False: "minmax(0, 1fr)"}
-DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
 WHY = {"section": "lesson", "step": "arms"}  # why rubbing lifts a top
 WHY_NOT = {"section": "published"}  # why Coulomb's law alone does not
@@ -126,7 +125,7 @@ class House:
 
         def show(*events):
             if not self._explores() and not research:
-                research.append(self._research())
+                research.append(self._research(tab.follow))
             tab.view.level = self._level
             for each in research:
                 each.view.visible = not self._explores()
@@ -134,18 +133,19 @@ class House:
                 if each.view not in view:  # only now, because a group of inputs is drawn with its values
                     view.append(each.view)
             is_beside = not self._explores() and self.explorer.table != "three"
-            view.styles = {"--columns": COLUMNS[is_beside], "--beside": "sticky" if is_beside else "static"}
+            view.styles = {"--columns": COLUMNS[is_beside], "--beside": "sticky" if is_beside else "static",
+                           "--edge": "0" if is_beside else "24px"}  # fmt: skip
 
         self._at_levels(lambda explores: show())
         self.explorer.param.watch(show, "table")
         return view
 
-    def _research(self):
+    def _research(self, follow):
         controls = Controls(self.scene, self.pacer.ask)
         self.keep.add(controls)
         for show_scene, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show_scene, when)
-        found = Research(self.pacer, self.lab_of, self.runs, controls.card(), self.builder.choose)
+        found = Research(self.pacer, self.lab_of, self.runs, controls.card(), self.builder.choose, follow)
         self.keep.add(found)
         found.param.watch(lambda event: self.keep.at_rest(), "panel")
         return found
@@ -157,14 +157,8 @@ class House:
             self._learn.param.update(**place)
         self._look_at(room="learn")
 
-    def _leads_on(self, says, goes, **layout):
-        """A button that leads to another room."""
-        button = pmui.Button(label=say(says), **BUTTON | layout)
-        on_click(button, lambda event: goes())
-        return button
-
     def build(self):
-        bench = Build(self.builder)
+        bench = Build(self.builder, self.runs)
         self.pacer.shows(bench.show, "rest")
         fields = RockingFields(self.builder)
         self._at_levels(lambda explores: setattr(fields.formula, "visible", not explores))
@@ -174,7 +168,7 @@ class House:
         self.pacer.shows(partial(show_top, top), "rest")
         told = VerdictWords(self.runs)
         self.pacer.shows(told.show, "rest")
-        spin = self._leads_on("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", sx=DARK)
+        spin = Button(say("build.spin.it"), self._spin, kind="primary", margin=(8, 0, 0, 0))
         parts = {"section": bench.section_view, "built": (top, told.view, told.strip, spin), "bench": bench.bench_view}
         section, built, measures = (
             card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()

@@ -3,13 +3,11 @@
 from weakref import WeakKeyDictionary
 
 import panel as pn
-import panel_material_ui as pmui
 import param
-from panel.util import edit_readonly
+from panel.theme.base import Design
 
 from app import text
 from app.page import first
-from app.page.design import Design
 from app.page.house import TABS, House
 from app.share.share import Share
 from app.state import opened as room
@@ -26,12 +24,10 @@ from app.widgets.head import HeadBar
 from app.widgets.look import Look
 from app.widgets.rooms import Rooms
 from app.widgets.symbols import Symbols
-from app.widgets.theme import HEADLESS, STYLE, THEME
 
 SPEAKS = WeakKeyDictionary()  # document -> its language
 text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc else text.DEFAULT)
 TOUR = room.FIRST, LEVELS[1]
-BARE = {"theme_toggle": False, "busy_indicator": None}
 
 
 class PageLanguage(param.Parameterized):
@@ -49,8 +45,7 @@ def page():
     failed = failure()
     look = Look(width=0, height=0, margin=0)
     if VOTE in texts:  # the link of a student
-        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), look, failed],
-                         stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
+        return whole(student_page(texts[VOTE]), look, failed)
     house = House(texts, sentence, lambda **where: rooms.param.update(**where), room.level(texts))
     pacer, keep = house.pacer, house.keep
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
@@ -73,13 +68,14 @@ def page():
     toured = lambda *events: setattr(guide, "tour", (rooms.room, rooms.level) == TOUR)  # noqa: E731
     rooms.param.watch(toured, ["room", "level"])
     toured()
-    pn.state.curdoc.template_variables.update(first.variables(text.spoken()))
     unseen = {"width": 0, "height": 0, "margin": 0}
     lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
     around = [look, guide, pacer.painted, lost, Symbols(**unseen), failed]
-    return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},
-                     main=[head.view, *share.main, *around, *rooms.columns], stylesheets=[*STYLE, *HEADLESS],
-                     **BARE)  # fmt: skip
+    return whole(head.view, *share.main, *around, *rooms.columns)
+
+
+def whole(*parts):
+    return pn.Column(*parts, sizing_mode="stretch_width", margin=0)
 
 
 def chosen(rooms, house, tongue, share):
@@ -106,9 +102,8 @@ def tells(head, rooms, house):
 
 def show():
     """Puts the page into the document that is being served."""
-    pn.extension("katex", design=Design, respect_explicit_sizing=True)
-    shown = page()
-    with edit_readonly(shown):
-        # Panel would tell it whether any page of this server is busy, which kept it and all it shares alive for ever.
-        shown.busy = shown.param.theme_toggle
-    shown.servable()
+    pn.extension(design=Design, respect_explicit_sizing=True)  # without any style sheet of a theme
+    page().servable(title=say("main.title"))
+    document = pn.state.curdoc
+    document.template = first.TEMPLATE
+    document.template_variables.update(first.variables(text.spoken()))

@@ -1,9 +1,8 @@
 """What a browser may send to the page, checked as it arrives, before Bokeh, Panel or a widget uses it.
 
 This file lists what each part of the page may be sent, with type, length and size; everything else is Refused. The
-libraries do not check: Panel Material UI reserves as many bytes as a message asks for, numpy accepts a type of any
-width from one, and Bokeh creates any model that it describes. A component that is not listed here, because it is new,
-accepts plain values of bounded size.
+libraries do not check: numpy accepts a type of any width from a message, and Bokeh creates any model that it describes.
+A component that is not listed here, because it is new, accepts plain values of bounded size.
 """
 
 import re
@@ -96,14 +95,6 @@ def entries_of(value):
     return dict(entries)
 
 
-def _is_option(value, of):
-    options = of.options
-    if isinstance(options, dict):
-        return type(value) is str and value in options
-    each = [part for option in options for part in (option if isinstance(option, (list, tuple)) else [option])]
-    return any(type(value) is type(part) and value == part for part in each)
-
-
 def _is_column(value, of):
     entries = entries_of(value)
     return (entries is not None and set(entries) == set(of.data)
@@ -117,10 +108,10 @@ NUMBER, TEXT, SHORT = number(), text(), text(300)
 PLAIN = Value("plain and bounded", _plain)
 COLUMNS = Value("a few numbers or words in each of its columns", _is_column)
 # What depends on the model as it is now.
-OPTION = Value("one of its options", _is_option)
 CHOSEN = Value("one of its values", lambda value, of: any(type(value) is type(each) and value == each
                                                           for each in of.options.values()))  # fmt: skip
-TYPED = Value("text as long as its field takes", lambda value, of: text(of.max_length or LONGEST).fits(value, of))
+CHECKED = Value("some of its values", lambda value, of: type(value) is list and all(CHOSEN.fits(each, of)
+                                                                                   for each in value))  # fmt: skip
 ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, of.start, of.end))
 
 
@@ -151,24 +142,11 @@ CHANGES = {
     "BrowserInfo": {"dark_mode": FLAG, "device_pixel_ratio": NUMBER, "language": SHORT, "timezone": SHORT,
                     "timezone_offset": NUMBER, "webdriver": FLAG, "webgl": FLAG},
     "Location": {name: TEXT for name in ("href", "hostname", "pathname", "protocol", "port", "search", "hash")},
-    # Panel Material UI's
-    "Accordion": {"active": many(COUNT)},
-    "Button": {},
-    "Checkbox": {"value": FLAG},
-    "CheckBoxGroup": {"value": many(OPTION)},
-    "Dialog": {"open": FLAG},
-    "FileDownload": {},
-    "FloatSlider": {"value": ON_SLIDER, "value_throttled": ON_SLIDER},
-    "MessageState": {},  # Panel's, of the page's notifications
-    "Page": {"dark_theme": FLAG},
-    "RadioBoxGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
-    "RangeSlider": dict.fromkeys(("value", "value_throttled"), row(ON_SLIDER, ON_SLIDER)),
-    "Select": {"value": OPTION | NONE, "dropdown_open": FLAG, "filter_str": TEXT},
-    "Switch": {"value": FLAG},
-    "TextInput": {"value": TYPED, "value_input": TYPED},
     # ours
     "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT,
                 "visited": row(COUNT, SHORT)},
+    "Button": {"clicks": COUNT},
+    "Checks": {"value": CHECKED},
     "Choice": {"value": CHOSEN},
     "Connection": {},
     "Copy": {},
@@ -176,7 +154,10 @@ CHANGES = {
     "Failure": {},
     "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT, SHORT, COUNT),
                      "piece": row(text(200_000), COUNT, COUNT, COUNT, SHORT, COUNT)},
+    "Field": {"value": text(60)},
     "FilmStage": {},
+    "Fold": {},
+    "Menu": {"value": CHOSEN},
     "Moments": {},
     "Guide": {},
     "LessonView": {"asked": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
@@ -190,38 +171,19 @@ CHANGES = {
     "Phone": {"mark": text(32)},
     "Said": {},
     "ShareHead": {"closed": COUNT},
+    "Stretch": {"pulled": row(COUNT, ON_SLIDER, ON_SLIDER)},
     "Surface3D": POINT,
+    "TextFile": {"sent": row(text(LARGEST_FILE), COUNT, COUNT)},
     "Top3D": PICTURE,
     "Symbols": {},
     "TopsMap": {"state": PLAIN, "picked": row(COUNT, SHORT), "moved": row(COUNT, number(-1, 1), number(0.1, 10))},
-    "TopFile": {},
 }  # fmt: skip
-# A theme dresses all parts of a figure, in the browser; the server has the same theme.
-LOOKS = re.compile(r"(\w+_)?(color|alpha|font|font_size|font_style|standoff)")
-LOOK = number(0, 1000) | SHORT | NONE
-
-DOM = {"node": one_of("click", "enter"), "data": PLAIN}
 POINTED = {"sx": NUMBER, "sy": NUMBER, "x": NUMBER, "y": NUMBER, "modifiers": PLAIN}
 DRAGGED = POINTED | {"delta_x": NUMBER, "delta_y": NUMBER}
 # The events of models, with what they carry, and of the page.
-EVENTS = {"dom_event": DOM, "tap": POINTED, "doubletap": POINTED,
+EVENTS = {"tap": POINTED, "doubletap": POINTED,
           "panstart": POINTED, "pan": DRAGGED, "panend": POINTED}  # fmt: skip
 OF_THE_PAGE = {"document_ready": {}}
-
-# What a component may be sent as a message of its own, by its status.
-STATUS = {"type": one_of("status")}
-BYTES = Value(f"at most {LARGEST_FILE} bytes, in a buffer",
-              lambda value, of: type(value) is dict and set(value) == {"type", "data"} and value["type"] == "bytes"
-              and type(value["data"]) is dict and set(value["data"]) == {"id"})  # fmt: skip
-ONE = number(1, 1)
-MESSAGES = {
-    "TopFile": {
-        "initializing": STATUS,
-        "upload_event": STATUS | {"chunk": ONE, "total_chunks": ONE, "name": SHORT, "mime_type": SHORT, "data": BYTES},
-        "finished": STATUS,
-        "error": STATUS | {"error": TEXT},
-    }
-}
 
 
 # --- the check
@@ -287,8 +249,6 @@ def _look_at_change(event, models):
         name, known = _called(model), CHANGES.get(_called(model))
         if known is not None or not isinstance(model, DataModel):
             allowed = (known or {}).get(attribute)
-        if allowed is None and not isinstance(model, DataModel) and LOOKS.fullmatch(attribute):
-            allowed = LOOK
         if allowed is None:
             raise Refused(f"The page itself changes no {attribute[:40]!r} of a {name}.")
     if not allowed.fits(event["new"], model):
@@ -328,16 +288,11 @@ def _look_at_event(event, models):
 
 
 def _message(values, model):
-    """(the contents of a message to a component, the allowed ones)."""
+    """(the contents of a message to a component, the allowed ones): none of those that are listed gets any."""
     inner = getattr(model, "data", None)
-    of = _called(inner)
-    if model is None or (isinstance(inner, DataModel) and of not in CHANGES):
+    if model is None or (isinstance(inner, DataModel) and _called(inner) not in CHANGES):
         return values, {"data": PLAIN}
-    said = entries_of(values.get("data"))
-    allowed = MESSAGES.get(of, {}).get(said.pop("status", None)) if said is not None and len(values) == 1 else None
-    if allowed is None:
-        raise Refused(f"That is no message to a {of}.")
-    return said, allowed
+    raise Refused(f"That is no message to a {_called(inner)}.")
 
 
 def shown(value):

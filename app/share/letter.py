@@ -14,14 +14,14 @@ from bokeh.embed import components
 from bokeh.settings import settings
 
 from app.bundle import BUNDLE, Bundled, inlined
-from app.model.colours import COLOURS, ON_LIGHT
+from app.model.colours import COLOURS
 from app.share.export import parameters
 from app.text import say, spoken
 from app.widgets.controls import SYMBOLS
 from app.widgets.plane_view import PlaneView
-from app.widgets.plots import TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Track
 from app.widgets.surface3d import Surface3D, show_surface
+from app.widgets.times import TimeFigures, label
 from app.widgets.top3d import Top3D, show_top
 
 PAGE = Template(Path(__file__).with_name("letter.html").read_text(encoding="utf-8"))
@@ -41,14 +41,6 @@ TYPESET = {
     "R": ("<i>R</i>", "m"),
     "M": ("<i>M</i>", "kg"),
 }
-LABELS = {
-    "theta": "<i>θ</i><br>rad",
-    "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
-    "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
-    "constants": f'<span style="color:{COLOURS["jellett"]}"><i>K</i><sub>J</sub></span><br>'
-    f'<span style="color:{ON_LIGHT["omega"]}"><i>K</i><sub>R</sub></span><br>'
-    f'<span style="color:{ON_LIGHT["energy"]}"><i>E</i></span>',
-}
 
 
 def letter(scene, link="", look=None):
@@ -59,7 +51,7 @@ def letter(scene, link="", look=None):
     plane, times = PlaneView(), TimeFigures()
     plane.show_selected(scene)
     plane.show_plane(scene)
-    times.show(scene)
+    times.show_motions({"rough": scene.trajectory}, "rough", scene.scales, mu=scene.mu_s)
     top, surface = Top3D(clock="lab", **(look or {})), Surface3D()
     show_top(top, scene)
     show_surface(surface, scene)
@@ -70,7 +62,7 @@ def letter(scene, link="", look=None):
     script, divs = components(figures, wrap_script=True)
     time_divs, portrait_divs = divs[: len(times.figures)], divs[len(times.figures) :]
     rows = "".join(
-        f'<div class="row"><div>{LABELS[name]}</div><div class="figure">{div}</div></div>'
+        f'<div class="row"><div>{label(name)}</div><div class="figure">{div}</div></div>'
         for name, div in zip(times.figures, time_divs, strict=True)
     )
     pictures = "".join(
@@ -96,7 +88,7 @@ def letter(scene, link="", look=None):
         card_times=say("roll.cards.times"),
         times=rows,
         portraits=pictures,
-        unit=say("roll.says.unit", time=SYMBOLS["time"], milliseconds=1e3 * scene.scales.time),
+        unit=say("planes.keys.time"),
         this=say("share.letter.motion"),
         source=say("share.letter.source"),
         parameters=", ".join(_said(scene)),

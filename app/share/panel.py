@@ -1,7 +1,6 @@
 """The rows of Share: one for each kind of file, and the paper's figures in a fold."""
 
 import panel as pn
-import panel_material_ui as pmui
 
 from app.share import export, glb, programs, saved_runs
 from app.share.letter import letter
@@ -13,6 +12,7 @@ from app.widgets.cards import px, words
 from app.widgets.choice import Choice
 from app.widgets.copy import Copy
 from app.widgets.download import Download
+from app.widgets.forms import Fold
 from tippe_core import BareSphere
 
 RUN = {
@@ -79,9 +79,8 @@ class Files:
         rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [paper]}
         self._python = Copy(label="Python", rows=13, button=listed("share.copy"), sizing_mode="stretch_width",
                             margin=(4, 0))  # fmt: skip
-        self._more = pmui.Accordion((say("share.panel.figures"), pn.Column(
-            *self._figures(), sizing_mode="stretch_width", margin=0)), active=[], sizing_mode="stretch_width",
-            margin=(8, 0), title_variant="h3", elevation=0, sx={"& .title": {"fontSize": px(14)}})  # fmt: skip
+        figures = pn.Column(*self._figures(), sizing_mode="stretch_width", margin=0)
+        self._more = Fold(say("share.panel.figures"), figures, margin=(8, 0))
         self.view = [
             self._of, self._table,
             *(_row(said[name], *saves) for name, saves in rows.items()),

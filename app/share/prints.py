@@ -140,7 +140,7 @@ def _motion(scene):
         (r"$\theta$ (rad)", {"": (motion.theta, COLOURS["theta"])}),
         ("$F_z$ ($Mg$)", {"": (scene.normal, COLOURS["normal"])}),
         ("$F_h/F_z$", {"": (scene.ratio, COLOURS["friction"])}),
-        (named["constants"], {"$K_J$": (scene.K_J, COLOURS["jellett"]), "$K_R$": (scene.K_R, COLOURS["omega"]),
+        (named["constants"], {"$K_J$": (scene.K_J, COLOURS["jellett"]), "$K_R$": (scene.K_R, COLOURS["routh"]),
                        "$E$": (scene.E, COLOURS["energy"])}),
     )  # fmt: skip
     for axes, (label, drawn) in zip(rows, curves, strict=True):

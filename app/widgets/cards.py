@@ -1,24 +1,11 @@
 """The building blocks of the page: cards, text in the page's own type, a grid that fits a phone."""
 
 import panel as pn
-import panel_material_ui as pmui
 
-from app.model.colours import COLOURS
+from app.model.colours import ACCENT, COLOURS
 from app.widgets.typeset import typeset
 
-PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
-LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # legible on light and on dark
-UNSEEN_LABEL = {
-    "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
-                             "clipPath": "inset(50%)"},
-    "& legend": {"display": "none"},
-    "& fieldset": {"top": 0},
-}  # fmt: skip
-FIELD = {
-    "& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"},
-    # MUI hides a placeholder until the entry has the focus
-    "& .MuiInputBase-root.MuiInputBase-root.MuiInputBase-root input::placeholder": {"opacity": "0.6 !important"},
-}
+LINK = f"color-mix(in srgb, {ACCENT} 60%, var(--ink, #22303c))"  # legible on light and on dark
 # Two rows fill a screen; on a phone, where rows of buttons wrap, a card needs more.
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
@@ -64,7 +51,6 @@ i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height:
 .swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
 a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
 """.replace("LINK", LINK) + NOTES  # fmt: skip
-BUTTON = {"size": "small", "variant": "outlined", "margin": 0, "sx": {"textTransform": "none"}}
 
 
 def px(size):
@@ -91,19 +77,6 @@ def tall(*cards):
     them."""
     styles = {"gap": "12px", "height": "max-content", "max-height": "none"}
     return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
-
-
-def on_click(button, act):
-    """Calls act(event) when the button is clicked; all changes that it makes on the page are sent as one message.
-
-    (Panel may call it without the document's lock, and then refuses changes of a figure.)
-    """
-
-    def clicked(event):
-        with pn.io.hold():
-            act(event)
-
-    button.on_click(clicked)
 
 
 def progress(percent, says):
@@ -194,13 +167,3 @@ def flexible(*cards):
         each.styles = each.styles | {"flex": flex, "min-width": "0"}
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
     return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)
-
-
-def field(value, label, **options):
-    """An entry; label: for screen readers, because it is also written beside the entry."""
-    options = {"width": 84, "margin": 0} | options
-    return pmui.TextInput(value=value, label=label, size="small", sx=FIELD | UNSEEN_LABEL, **options)
-
-
-def beside(label, entry):
-    return pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)

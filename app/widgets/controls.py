@@ -9,7 +9,7 @@ from app.model.inputs import INPUTS
 from app.model.regimes import NAMES
 from app.model.region import PAPER
 from app.text import listed, say, written
-from app.widgets.numbers import Numbers, choice, heading, number, tidy, words
+from app.widgets.numbers import Numbers, choice, dock, heading, number, tidy, words
 from app.widgets.typeset import typeset
 from tippe_core import Top
 
@@ -66,15 +66,33 @@ def worst(scene):
 
 def control(name, **more):
     """The part of a group for one input."""
-    said = listed(f"controls.inputs.{name}")
-    return number(name, said | {"name": said["spoken"], "html": f"{SYMBOLS[name]} {said['name']}"},
-                  lines=LINES.get(name, 0), **more)  # fmt: skip
+    said, symbol = listed(f"controls.inputs.{name}"), SYMBOLS[name]
+    said = said | {"name": said["spoken"], "symbol": symbol, "html": f"{symbol} {said['name']}"}
+    return number(name, said, lines=LINES.get(name, 0), **more)
 
 
 def track(name, value, bounds=None):
     """(least, most, step, decimals) of its slider, which reaches to the value."""
     low, high = bounds or (INPUTS[name].low, INPUTS[name].high)
     return min(low, value), max(high, value), INPUTS[name].step, None
+
+
+def values_of(scene):
+    """{input: its last valid value} of a rolling motion."""
+    return {
+        "K_J": scene.constants.K_J, "K_R": scene.constants.K_R, "energy": scene.share, "mu_s": scene.mu_s,
+        **{name: getattr(scene.state, name) for name in FACES["state"]},
+        **{name: getattr(scene.top, name) for name in ("a", "I1", "I3")},
+    }  # fmt: skip
+
+
+def valid(scene):
+    """The motion that is still shown though a value of its was refused, in words; "" if none was."""
+    name = next(iter(scene.messages), None)
+    if name is None:
+        return ""
+    value = scene.constants.E if name == "energy" else values_of(scene)[name]
+    return f"{listed('controls.inputs')[name]['spoken']} {tidy(value)}"
 
 
 class Controls(param.Parameterized):
@@ -103,7 +121,7 @@ class Controls(param.Parameterized):
         shows = [choice(name, say("roll.sections.pictures"), {key: say(f"roll.switches.{key}") for key in values})
                  for name, values in PICTURES.items()]  # fmt: skip
         return [
-            heading(motion, choice("face", motion, faces)), *by, control("mu_s"), words("other"),
+            heading(motion, choice("face", motion, faces)), dock(motion, *by, control("mu_s")), words("other"),
             heading(say("roll.sections.top")), *(control(name) for name in ("a", "I1", "I3")),
             heading(say("roll.sections.pictures")), *shows,
         ]  # fmt: skip
@@ -131,7 +149,7 @@ class Controls(param.Parameterized):
         hidden = [name for face, names in FACES.items() if face != self.face for name in names]
         near = FACES[self.face][0] if self._used in {None, *hidden} else self._used
         at = {name: near if name in hidden else name for name in scene.messages}
-        values = self._values(scene)
+        values = values_of(scene)
         for name, options in PICTURES.items():
             values[name] = next(key for key, value in options.items() if value == scene.inputs[name])
         energy = "E" if scene.inputs.get("given") == "E" else "energy"
@@ -146,17 +164,8 @@ class Controls(param.Parameterized):
     def follow(self, scene):
         """Shows the values of a scene at once."""
         self._scene = scene
-        values = self._values(scene)
+        values = values_of(scene)
         self.numbers.follow(values, self._sliders(scene, values), {"energy": scene.constants.E})
-
-    @staticmethod
-    def _values(scene):
-        """The last valid values."""
-        return {
-            "K_J": scene.constants.K_J, "K_R": scene.constants.K_R, "energy": scene.share, "mu_s": scene.mu_s,
-            **{name: getattr(scene.state, name) for name in FACES["state"]},
-            **{name: getattr(scene.top, name) for name in ("a", "I1", "I3")},
-        }  # fmt: skip
 
     @staticmethod
     def _sliders(scene, values):

@@ -20,6 +20,7 @@ class Download(Bundled):
     filename = param.String()
     clicks = param.Integer(default=0, doc="the browser counts them")
     file = param.List(default=[0, "", ""], doc="[number of files so far, the newest one in base64, its name]")
+    disabled = param.Boolean(default=False)
     making = param.Boolean(default=False)
 
     def __init__(self, runs, state, make, **params):

@@ -21,7 +21,7 @@ class NumberControls(Bundled):
     """
 
     # JSON, because Panel and Bokeh search each part of a dict again and again
-    parts = param.String(default="[]", doc="As of heading(), number(), choice() and words(), in order.")
+    parts = param.String(default="[]", doc="As of heading(), number(), choice(), words() and dock(), in order.")
     state = param.String(default="{}", doc="As of Numbers.show(), and the last count that was answered.")
     asked = param.List(default=[], doc="[count, name, number or text, whether it was typed].")
 
@@ -47,6 +47,16 @@ def choice(name, label, options):
 def words(name):
     """A sentence."""
     return {"kind": "words", "name": name}
+
+
+def dock(label, *numbers):
+    """Number controls that stand at the foot of the window on a phone, one at a time. label: for screen readers."""
+    return {"kind": "dock", "label": label, "parts": numbers}
+
+
+def flat(parts):
+    """All parts, those of a dock too."""
+    return [each for part in parts for each in part.get("parts", [part])]
 
 
 def tidy(value):
@@ -75,9 +85,10 @@ class Numbers:
 
     def lay_out(self, parts):
         """Replaces the inputs; show() is to follow."""
-        choices = [each for part in parts if "options" in (each := part.get("choice") or part)]
+        each_part = flat(parts)
+        choices = [each for part in each_part if "options" in (each := part.get("choice") or part)]
         self._options = {each["name"]: [value for value, *_ in each["options"]] for each in choices}
-        self._numbers = {part["name"] for part in parts if part["kind"] == "number"}
+        self._numbers = {part["name"] for part in each_part if part["kind"] == "number"}
         self._parts = json.dumps(parts)
 
     def _asked(self, event):

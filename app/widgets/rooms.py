@@ -7,14 +7,14 @@ import time
 from functools import partial
 
 import panel as pn
-import panel_material_ui as pmui
 import param
 
 from app import turns
 from app.model.runs import connected_to, to_session
 from app.text import say
-from app.widgets.cards import BUTTON, alert, note, on_click, words
+from app.widgets.cards import alert, note, words
 from app.widgets.failure import attempt
+from app.widgets.forms import Button
 
 AROUND = (24, 28)
 
@@ -112,8 +112,7 @@ class Place:
         except Exception:
             log.exception("a bug: a tab could not be made")
             self._asked, self._failed = False, True
-            again = pmui.Button(label=say("main.making.again"), **BUTTON)
-            on_click(again, lambda event: self.ask())
+            again = Button(say("main.making.again"), self.ask)
             self.column.objects = [
                 words(alert(say("main.making.failed")), margin=AROUND),
                 pn.Row(again, margin=(0, 28)),

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { colours, onDark, onLight } from "../../app/frontend/src/colours.js";
+import { colours, onDark } from "../../app/frontend/src/colours.js";
 import { endRules, endsOnDark, endsOnLight } from "../../app/frontend/src/ends.js";
 import { colourOf, nameOf, ROLLS, wordOf } from "../../app/frontend/src/regimes.js";
 
@@ -19,9 +19,9 @@ test("a regime is named in the words of a picture", () => {
 });
 
 test("the browser uses the common list of colours", () => {
-  const { on_light, on_dark, ...all } = listed("colours");
+  const { on_dark, ...all } = listed("colours");
   assert.deepEqual(colours, all);
-  assert.deepEqual([onLight, onDark], [{ ...all, ...on_light }, { ...all, ...on_dark }]);
+  assert.deepEqual(onDark, { ...all, ...on_dark });
 });
 
 test("the browser uses the common list of ends", () => {

@@ -1,5 +1,5 @@
 // Parts of Bokeh, Panel and three.js that we use although their documentation does not promise them: any new version
-// may remove them. All are here except 1 to 3, which must run before the bundle has loaded: see app/borrowed.js. The
+// may remove them. All are here except 1 and 2, which must run before the bundle has loaded: see app/borrowed.js. The
 // issues are those of the libraries. tests/test_borrowed_browser.py fails if one of these parts has changed.
 
 // The view of a figure. Public since https://github.com/bokeh/bokeh/pull/13351.

@@ -1,9 +1,7 @@
-// One colour for each quantity: app/model/colours.json is the only list, also for Python. `chosen` is for what is
-// selected or can be clicked, `accent` is the blue of the page, `wood` is a top. Text and thin lines use the variant
-// for the background they are on.
+// One colour for each quantity: app/model/colours.json is the only list, also for Python. `accent` is the blue of the
+// page: what is selected, or can be clicked; `wood` is a top.
 import all from "../../model/colours.json" with { type: "json" };
 
-const { on_light, on_dark, ...colours } = all;
+const { on_dark, ...colours } = all;
 export { colours };
-export const onLight = { ...colours, ...on_light };
 export const onDark = { ...colours, ...on_dark };

@@ -1,5 +1,12 @@
 import { renderChoice } from "./controls/choice.js";
+import { renderFold } from "./controls/file.js";
+import { renderTextFile } from "./controls/file.js";
+import { renderButton } from "./controls/button.js";
+import { renderChecks } from "./controls/menu.js";
+import { renderField } from "./controls/field.js";
+import { renderMenu } from "./controls/menu.js";
 import { renderNumberControls } from "./controls/group.js";
+import { renderStretch } from "./controls/stretch.js";
 import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
@@ -37,19 +44,24 @@ window.__tippe = { time: timeOf, tops: topsOf }; // for tests only: there before
 // Panel finds a component by the name of its Python class.
 export default {
   Address: { render: renderAddress },
+  Button: { render: renderButton },
+  Checks: { render: renderChecks },
   Choice: { render: renderChoice },
   Connection: { render: renderConnection },
   Copy: { render: renderCopy },
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
+  Field: { render: renderField },
   FilmStage: { render: renderFilmStage },
+  Fold: { render: renderFold },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
   LessonView: { render: renderLesson },
   LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
+  Menu: { render: renderMenu },
   Moments: { render: renderMoments },
   NumberControls: { render: renderNumberControls },
   Painted: { render: renderPainted },
@@ -60,7 +72,9 @@ export default {
   Said: { render: renderSaid },
   Steps: { render: renderSteps },
   ShareHead: { render: renderShareHead },
+  Stretch: { render: renderStretch },
   Surface3D: { render: renderSurface3D },
+  TextFile: { render: renderTextFile },
   Top3D: { render: renderTop3D },
   Symbols: { render: renderSymbols },
   TopsMap: { render: renderTopsMap },

@@ -89,11 +89,61 @@ interface PlaneModel extends Model {
 }
 
 // The words of a number control: its name, the name of its field, its unit; in HTML, on hover and as it is read aloud.
-type Said = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string };
+type Said = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string; symbol?: string };
 interface ChoiceModel extends Model {
   label: string;
   options: Record<string, string | number>;
   value: string | number;
+}
+
+interface ButtonModel extends Model {
+  label: string;
+  kind: "primary" | "outline" | "link";
+  disabled: boolean;
+  clicks: number;
+}
+
+interface FieldModel extends Model {
+  label: string;
+  value: string;
+  shows: string;
+  unit: string;
+  placeholder: string;
+  size: number;
+  wrong: [why: string, nearest: string, back: string] | [];
+}
+
+interface MenuModel extends ChoiceModel {
+  is_beside: boolean;
+}
+
+interface ChecksModel extends Model {
+  label: string;
+  options: Record<string, string | number>;
+  value: (string | number)[];
+}
+
+interface StretchModel extends Model {
+  label: string;
+  start: number;
+  end: number;
+  step: number;
+  digits: number;
+  unit: string;
+  value: number[];
+  pulled: [count: number, from: number, to: number];
+}
+
+interface TextFileModel extends Model {
+  label: string;
+  accept: string;
+  most: number;
+  sent: [text: string, count: number, size: number];
+}
+
+interface FoldModel extends Model {
+  label: string;
+  get_child(name: string): HTMLElement;
 }
 
 interface NumberControlsModel extends Model {
@@ -124,7 +174,6 @@ interface LookModel extends Model {
   id: string;
   dark: boolean | null;
   large: boolean;
-  on_dark: Record<string, string>;
 }
 
 interface DownloadModel extends Model {
@@ -133,6 +182,7 @@ interface DownloadModel extends Model {
   clicks: number;
   file: [count: number, base64: string, name: string];
   making: boolean;
+  disabled: boolean;
 }
 
 interface FilmStageModel extends Model {

@@ -1,5 +1,5 @@
 """The quantities of a run that are shown over time, in the units of the page: degrees, rev/s, cm/s, s; forces in M
-g, energies in M g R."""
+g, energies in M g R, Jellett's and Routh's constants as the paper has them."""
 
 from itertools import pairwise
 from typing import NamedTuple
@@ -7,28 +7,34 @@ from typing import NamedTuple
 import numpy as np
 
 from app.model.motion import Motion
-from tippe_core import Scales
+from tippe_core import Scales, Trajectory
 from tippe_core.types import Array
 
-QUANTITIES = ("theta", "omega3", "normal", "slip")
+QUANTITIES = ("theta", "omega3", "normal", "ratio", "slip", "E", "K_J", "K_R")
 BUCKETS, POINTS = 500, 500  # of a curve, and of the energies
+TOUCHES = 1e-6  # of M g: with a smaller normal force nothing carries the top
 
 
 class Track(NamedTuple):
-    """One quantity at the times t (n,), in s."""
+    """One quantity at the times t (n,), in s; nan where there is none."""
 
     t: Array
     value: Array
 
 
-def tracks(motion: Motion, scales: Scales) -> dict[str, Track]:
-    """{of QUANTITIES: Track}"""
-    moved = motion.trajectory
+def tracks(moved: Trajectory, scales: Scales) -> dict[str, Track]:
+    """{of QUANTITIES: Track}; the ratio is F_h/F_z."""
+    force = moved.force
+    carried = force[:, 2] > TOUCHES
     values = {
         "theta": np.degrees(moved.theta),
         "omega3": moved.omega[:, 2] * scales.angular_velocity / (2 * np.pi),
-        "normal": moved.force[:, 2],
-        "slip": 100 * scales.velocity * motion.slip,
+        "normal": force[:, 2],
+        "ratio": np.where(carried, np.hypot(force[:, 0], force[:, 1]) / np.where(carried, force[:, 2], 1.0), np.nan),
+        "slip": 100 * scales.velocity * np.hypot(*moved.slip.T),
+        "E": moved.energy,
+        "K_J": moved.jellett / moved.top.I1,
+        "K_R": moved.routh,
     }
     return {name: extremes(moved.t * scales.time, value) for name, value in values.items()}
 
@@ -37,8 +43,8 @@ def extremes(t: Array, values: Array) -> Track:
     """The least and the largest value in each of BUCKETS intervals, so that a fast oscillation keeps its width."""
     if len(t) <= 2 * BUCKETS:
         return Track(t, values)
-    buckets = pairwise(np.linspace(0, len(t), BUCKETS + 1).astype(int))
-    rows = np.ravel([sorted((a + values[a:b].argmin(), a + values[a:b].argmax())) for a, b in buckets])
+    buckets, known = pairwise(np.linspace(0, len(t), BUCKETS + 1).astype(int)), np.nan_to_num(values)
+    rows = np.ravel([sorted((a + known[a:b].argmin(), a + known[a:b].argmax())) for a, b in buckets])
     return Track(t[rows], values[rows])
 
 

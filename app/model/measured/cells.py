@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.model.measured.names import NUMBER, is_unit
+from app.model.measured.names import NUMBER, is_run, is_unit
 from app.model.measured.unpack import COLUMNS, FEWEST, MOST
+from app.text import say
 from tippe_core.types import Array
 
 Row = tuple[int, list[str]]
@@ -20,7 +21,8 @@ Notes = tuple[tuple[str, dict[str, object]], ...]
 _COMMENT = re.compile(r"\s*(#|%|//|!|;(?=[^;]*$))+\s*")
 _GAP = {"", "-", "nan", "na", "n/a", "null", "none"}
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:(?:\.\d{3})+,\d+|(?:,\d{3})+\.\d+|(?:\.\d{3}){2,}|(?:,\d{3}){2,})")
-_CLOCK = re.compile(r"(?:[\d.-]{8,10}[T ]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d\d(?:[.,]\d*)?)\s*(?:Z|[+-]\d\d:?\d\d)?", re.A)
+_CLOCK = re.compile(r"(?:[\d.-]{8,10}[T ]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d\d(?:[.,]\d*)?)"
+                    r"\s*(?:Z|[+-]\d\d:?\d\d|([AP])M)?", re.A | re.I)  # fmt: skip
 DAY = 86400.0
 
 
@@ -28,8 +30,11 @@ class MeasuredError(ValueError):
     """An error in a table. code: a key of [wrong] in measure.toml; numbers: the values that its sentence quotes."""
 
     def __init__(self, code: str, **numbers: object) -> None:
-        super().__init__(f"{code}: {numbers}")
+        super().__init__(code, numbers)
         self.code, self.numbers = code, numbers
+
+    def __str__(self) -> str:
+        return f"{self.code}: {say(f'measure.wrong.{self.code}', **self.numbers)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +95,14 @@ def _is_spaced(line: str) -> bool:
 
 def _names(heads: list[list[str]]) -> list[str] | None:
     """The names from the last line above the numbers, with the units of the line below them if that contains only
-    units, and below the point that Tracker followed if several columns have the same name."""
+    units, and below the point that Tracker followed if several columns have the same name. Capstone's run may have a
+    line of its own."""
+    of_run = next(
+        (cells for cells in heads[-2:] if any(cells) and all(not cell or is_run(cell) for cell in cells)), None
+    )
+    if of_run and len(heads) > 1:
+        names = next(cells for cells in heads[-2:] if cells is not of_run)
+        return [f"{name} {run}".strip() for name, run in zip(names, of_run, strict=True)]
     if len(heads) > 1 and all(not cell or is_unit(cell) for cell in heads[-1]) and any(heads[-1]):
         return [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in zip(*heads[-2:], strict=True)]
     if len(heads) > 1 and len(set(heads[-1])) < len(heads[-1]) and not heads[-2][0]:
@@ -157,8 +169,12 @@ def _in_pairs(cells: list[str]) -> list[str]:
 def _is_data(cells: list[str]) -> bool:
     """Whether this is a row of numbers, possibly with gaps."""
     full = [cell for cell in cells if cell]
-    numbers = sum(bool(NUMBER.fullmatch(cell) or _CLOCK.fullmatch(cell)) for cell in full)
+    numbers = sum(map(_is_number, full))
     return numbers > 0 and numbers >= len(full) / 2
+
+
+def _is_number(cell: str) -> bool:
+    return bool(NUMBER.fullmatch(cell) or _CLOCK.fullmatch(cell))
 
 
 def _shape(cell: str) -> tuple[int, bool]:
@@ -199,6 +215,10 @@ def _table(names: list[str] | None, rows: list[Row], between: str, whole: bool =
     if not FEWEST <= len(rows) <= MOST:
         raise MeasuredError("rows", rows=len(rows), least=FEWEST, most=MOST)
     _check_decimals(rows)
+    for i in range(width):
+        if not any(_is_number(cells[i]) for _, cells in rows):  # of words: nothing was measured there
+            for _, cells in rows:
+                cells[i] = ""
     values = np.array([[_value(cell, number, name) for cell, name in zip(cells, names, strict=True)]
                        for number, cells in rows])  # fmt: skip
     for i in range(width):
@@ -232,6 +252,9 @@ def _value(cell: str, line: int, name: str) -> float:
     return value
 
 
-def _since(hours: str | None, minutes: str, seconds: str) -> float:
-    """Seconds since midnight."""
-    return float(hours or 0) * 3600 + float(minutes) * 60 + float(seconds.replace(",", "."))
+def _since(hours: str | None, minutes: str, seconds: str, half: str | None) -> float:
+    """Seconds since midnight; half: A or P of a clock with twelve hours."""
+    hour = float(hours or 0)
+    if half:
+        hour = hour % 12 + 12 * (half.upper() == "P")
+    return hour * 3600 + float(minutes) * 60 + float(seconds.replace(",", "."))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from app.model.measured.cells import MeasuredError
-from app.model.measured.names import UNITS, is_from_x
+from app.model.measured.names import UNITS
 from app.model.measured.table import Column, Table
 from tippe_core.types import Array
 
@@ -101,7 +101,7 @@ def settled(table: Table, rate: float = 0.0) -> Data:
     if time.unit == "frames" and not rate > 0:
         raise MeasuredError("rate", rate=rate)
     known = np.isfinite(time.values)
-    t = time.values[known] * (1 / rate if time.unit == "frames" else UNITS["time"][time.unit])
+    t = time.si[known] / (rate if time.unit == "frames" else 1.0)
     t = t - t[0] if len(t) and time.unit in SINCE_1970 else t
     lines = np.array(table.lines)[known]
     falls = np.flatnonzero(np.diff(t) < 0)
@@ -127,10 +127,7 @@ def settled(table: Table, rate: float = 0.0) -> Data:
 
 def _series(column: Column, t: Array, known: Array, lines: Array) -> Series:
     size = UNITS[column.quantity][column.unit]
-    values = column.values[known] * size
-    if is_from_x(column.name) and column.quantity in ("line", "tilt"):  # from the upright, as the tilt
-        values = (np.pi / 2 - values + np.pi) % (2 * np.pi) - np.pi
-        values = np.abs(values) if column.quantity == "tilt" else values
+    values = column.si[known]
     good = np.isfinite(values)
     if good.sum() < 4:
         raise MeasuredError("few-values", name=column.name, count=int(good.sum()))

@@ -2,6 +2,7 @@
 determine."""
 
 import itertools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.stats import chi2 as chi_square
 from scipy.stats import norm
 
 from app.model.measured.data import Data, are_handed
-from app.model.measured.known import RISE, known
+from app.model.measured.known import RISE, Known, known
 from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, Model, Residuals, residuals_of, shifted
 from app.model.measured.starts import around, scattered, starts
 from app.model.runs import look
@@ -33,6 +34,10 @@ FAR = 6.0  # standard errors: a value that is farther off was hardly measured ri
 FEW = 0.1  # of the values: if more are far off, it is the model that is wrong
 AT_END = 0.01  # of its value: a number so close to its bound was decided by it
 CLEARLY = 6.0  # difference in AIC above which one model is said to be better
+WORSE = 50.0  # times the chi-square of the other: a model that stays as bad from its first starts is given up
+
+End = tuple[float, Array]
+"""(chi-square, parameters) where a search ended."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +56,7 @@ class Fit:
     runs: dict[str, float]
     unknown: tuple[str, ...]
     sure: bool
+    given_up: bool = False
 
     @property
     def errors(self) -> dict[str, float]:
@@ -151,6 +157,19 @@ def _constants(model: Model) -> Array:
 def fit(model: Model, data: Data) -> Fit:
     """The best Fit of the model's free parameters. It can be stopped. Raises TopError if there is no motion for any of
     the starting points."""
+    return _ended(*_begun(model, data))
+
+
+def fit_both(models: tuple[Model, Model], data: Data) -> tuple[Fit, Fit]:
+    """The best Fit of each; a model whose first starts all end WORSE times higher than the other's is given up."""
+    one, other = models
+    first, ends = _begun(one, data)
+    second, others = _begun(other, data, _lowest(ends))
+    return _ended(first, ends, _lowest(others)), _ended(second, others, _lowest(ends))
+
+
+def _begun(model: Model, data: Data, rival: float = math.inf) -> tuple["Problem", list[End]]:
+    """(the Problem, where its first starts end): AGREEING of them if they show that the model is to be given up."""
     problem = Problem(model, data)
     if (count := problem.count) <= len(model.free) + shifted(data):
         raise TopError("values", count, "more than {least} measured values", "Free fewer numbers, or measure more.",
@@ -158,14 +177,23 @@ def fit(model: Model, data: Data) -> Fit:
     # First only the beginning: over a whole motion, with its many turns, there are many false minima.
     t = np.concatenate([series.t for series in data.series.values()])
     shares = [t <= t.min() + share * np.ptp(t) for share in GROWING]
-    ends: list[tuple[float, Array]] = []
+    ends: list[End] = []
     for x in problem.best_of(starts(model, data), STARTS, shares[0]):
         for row in shares:
             x = problem.followed(x, 12, row)[1]
         ends.append(problem.followed(x, 25))
+        if len(ends) >= AGREEING and problem.is_worse(_lowest(ends), rival):
+            break
+    return problem, ends
+
+
+def _ended(problem: "Problem", ends: list[End], rival: float = math.inf) -> Fit:
+    """The best Fit, from where the first starts ended and, if need be, from more."""
+    if problem.is_worse(_lowest(ends), rival):
+        return _judged(problem, min(ends, key=lambda end: end[0])[1], False, [], given_up=True)
     if not _settled(ends, problem):
         # The beginning hardly depends on the friction law, so the fit of it may have gone astray: fit the whole motion.
-        for x in problem.best_of(scattered(model, data), FOLLOWED):
+        for x in problem.best_of(scattered(problem.model, problem.data), FOLLOWED):
             ends.append(problem.followed(x, 25))
             if _settled(ends, problem):
                 break
@@ -180,26 +208,31 @@ def fit(model: Model, data: Data) -> Fit:
                 break
         best, x = _least(ends, problem)
     sure = problem.good(best) or _alike(ends) >= AGREEING
-    return _judged(model, data, problem, x, sure, [x for chi2, x in ends if chi2 < best + ALSO])
+    return _judged(problem, x, sure, [x for chi2, x in ends if chi2 < best + ALSO])
 
 
-def _least(ends: list[tuple[float, Array]], problem: "Problem") -> tuple[float, Array]:
+def _lowest(ends: list[End]) -> float:
+    """The smallest chi-square."""
+    return min(chi2 for chi2, _ in ends)
+
+
+def _least(ends: list[End], problem: "Problem") -> End:
     """The best of the ends, refined to full accuracy."""
     at = min(range(len(ends)), key=lambda i: ends[i][0])
     ends[at] = problem.followed(ends[at][1], 60, exactly=True)
     return ends[at]
 
 
-def _alike(ends: list[tuple[float, Array]]) -> int:
+def _alike(ends: list[End]) -> int:
     """How many starts ended at the smallest chi-square."""
-    least = min(chi2 for chi2, _ in ends)
+    least = _lowest(ends)
     return sum(chi2 < least + max(0.1, SAME * least) for chi2, _ in ends)
 
 
-def _settled(ends: list[tuple[float, Array]], problem: "Problem") -> bool:
+def _settled(ends: list[End], problem: "Problem") -> bool:
     """Whether the search can end: the fit is good, and more than one start ended there, since a good fit alone may be
     false."""
-    return problem.good(min(chi2 for chi2, _ in ends)) and _alike(ends) > 1
+    return problem.good(_lowest(ends)) and _alike(ends) > 1
 
 
 class Problem:
@@ -235,7 +268,7 @@ class Problem:
         inside = [np.clip(x, self.bounds[0] + 1e-6, self.bounds[1] - 1e-6) for x in starts]
         return sorted(inside, key=lambda x: float(np.sum(self.residuals(x)[row] ** 2)))[:most]
 
-    def followed(self, x: Array, steps: int, row: Array | slice = ALL, exactly: bool = False) -> tuple[float, Array]:
+    def followed(self, x: Array, steps: int, row: Array | slice = ALL, exactly: bool = False) -> End:
         """(chi-square, parameters) at the end of a least-squares fit from x."""
         narrow = {"xtol": 1e-10, "ftol": 1e-10} if exactly else {}
         found = least_squares(lambda x: self.residuals(x)[row], x, lambda x: self.slopes(x)[row], self.bounds,
@@ -253,14 +286,19 @@ class Problem:
         """Whether a chi-square is no larger than chance allows."""
         return chi2 < self.count + np.sqrt(2 * self.count)
 
+    def is_worse(self, chi2: float, rival: float) -> bool:
+        """Whether a chi-square is WORSE times that of another model and of a right one; not if no start is a motion."""
+        return chi2 > WORSE * max(rival, self.count) and not math.isclose(chi2, self.count * NO_MOTION**2)
 
-def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, others: list[Array]) -> Fit:
-    names = model.free
+
+def _judged(problem: "Problem", x: Array, sure: bool, others: list[Array], given_up: bool = False) -> Fit:
+    model, data, names = problem.model, problem.data, problem.model.free
+    found = Known.of_curvature(problem, x) if given_up else known(problem, x)
     for _ in range(MOST_BETTER):
-        found = known(problem, x)
         if found.better is None:
             break
         _, x = problem.followed(found.better, 60, exactly=True)
+        found = known(problem, x)
     model = model.with_values(dict(zip(names, map(float, x), strict=True)))
     residuals = residuals_of(model, data)
     tells = found.tells(x, problem.bounds)
@@ -270,7 +308,7 @@ def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, 
              for name, below, above in zip(names, found.below, found.above, strict=True)}  # fmt: skip
     return Fit(model, sides, found.covariance, residuals, shifted(data),
                {name: runs(row) for name, row in residuals.of.items()},
-               tuple(name for name, so in zip(names, tells, strict=True) if not so), sure)  # fmt: skip
+               tuple(name for name, so in zip(names, tells, strict=True) if not so), sure, given_up)  # fmt: skip
 
 
 def runs(row: Array) -> float:
@@ -289,7 +327,7 @@ def runs(row: Array) -> float:
 def verdict(rolling: Fit, sliding: Fit) -> str:
     """A key of [found] in measure.toml: "rolled", "slipped", "neither", "either" if the data cannot decide, or "unsure"
     if a rejected fit may not be the best one."""
-    if any(fit.refused and not fit.sure for fit in (rolling, sliding)):
+    if any(fit.refused and not (fit.sure or fit.given_up) for fit in (rolling, sliding)):
         return "unsure"
     if rolling.refused and sliding.refused:
         return "neither"

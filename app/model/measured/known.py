@@ -52,6 +52,13 @@ class Known:
     followed: Array
     better: Array | None = None
 
+    @classmethod
+    def of_curvature(cls, problem: Problem, x: Array) -> "Known":
+        """The Known at x from the curvature alone."""
+        covariance, _ = _curvature(problem, x)
+        errors = np.sqrt(np.diag(covariance))
+        return cls(covariance, errors, errors, np.zeros(len(x), bool))
+
     def tells(self, x: Array, bounds: Array) -> Array:
         """Which parameters the data determine: within their bounds and, if positive, to half of their value."""
         low, high = bounds
@@ -62,13 +69,7 @@ class Known:
 
 def known(problem: Problem, x: Array) -> Known:
     """The Known at the minimum x."""
-    J = problem.slopes(x)
-    norms = np.linalg.norm(J, axis=0)
-    norms[norms == 0] = 1e-300
-    # Parameters that are degenerate to the last digits still have errors, very large ones.
-    _, sizes, turned = np.linalg.svd(J / norms, full_matrices=False)
-    axes = turned / np.maximum(sizes, 1e-9 * sizes[0])[:, None] / norms  # of the error ellipsoid (1 standard error)
-    covariance = axes.T @ axes
+    covariance, axes = _curvature(problem, x)
     errors = np.sqrt(np.diag(covariance))
     bent = np.array([not _straight(problem.residuals, x, axis, problem.bounds) for axis in axes])
     followed = (axes[bent] ** 2).sum(axis=0) > BENT * errors**2
@@ -86,6 +87,17 @@ def known(problem: Problem, x: Array) -> Known:
             here.append(end)
         ends = ends or here
     return Known(covariance, below, above, followed)
+
+
+def _curvature(problem: Problem, x: Array) -> tuple[Array, Array]:
+    """(the covariance, the axes of the error ellipsoid of 1 standard error, one in each row)."""
+    J = problem.slopes(x)
+    norms = np.linalg.norm(J, axis=0)
+    norms[norms == 0] = 1e-300
+    # Parameters that are degenerate to the last digits still have errors, very large ones.
+    _, sizes, turned = np.linalg.svd(J / norms, full_matrices=False)
+    axes = turned / np.maximum(sizes, 1e-9 * sizes[0])[:, None] / norms
+    return axes.T @ axes, axes
 
 
 def _straight(residuals: Callable[[Array], Array], x: Array, axis: Array, bounds: Array) -> bool:

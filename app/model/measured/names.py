@@ -44,7 +44,7 @@ UNITS = {
 # The names of each quantity in tables, in lower case and reduced to letters and digits.
 NAMES = {
     "time": "t time zeit seconds frame frames bild bilder timestamp secondselapsed elapsed elapsedtime zeitstempel "
-    "datetime clock clocktime uhrzeit",
+    "datetime clock clocktime uhrzeit timesincestart relativetime",
     "tilt": "tilt theta θ angle winkel neigung inclination nutation tiltangle neigungswinkel",
     "line": "thetar θr positionangle",
     "azimuth": "azimuth azimut phi φ ϕ",
@@ -110,6 +110,11 @@ def without_unit(name: str) -> tuple[str, str]:
 def is_unit(text: str) -> bool:
     """Whether this is the name of a unit, perhaps in brackets."""
     return without_unit(f"({text.strip('()[] ')})")[1] != ""
+
+
+def is_run(text: str) -> bool:
+    """Whether this is the name of a run, and nothing else."""
+    return _RUN_LAST.fullmatch(f" {text}") is not None
 
 
 def is_from_x(name: str) -> bool:

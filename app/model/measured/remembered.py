@@ -25,7 +25,7 @@ def said_of(fit: Fit) -> dict[str, Any]:
         "covariance": [short(each) for each in fit.covariance[np.triu_indices(len(names))]],
         "unknown": list(fit.unknown),
         "sure": bool(fit.sure),
-    }
+    } | ({"given_up": True} if fit.given_up else {})
 
 
 def checked(said: Any, model: Model) -> dict[str, Any]:
@@ -49,7 +49,7 @@ def checked(said: Any, model: Model) -> dict[str, Any]:
     if variances.min() <= 0 or (np.abs(covariance) > 1.001 * np.sqrt(np.outer(variances, variances))).any():
         raise ValueError("covariance")
     return {"values": values, "sides": sides, "covariance": covariance, "unknown": tuple(said["unknown"]),
-            "sure": said["sure"] is True}  # fmt: skip
+            "sure": said["sure"] is True, "given_up": said.get("given_up") is True}  # fmt: skip
 
 
 def remembered(model: Model, data: Data, said: dict[str, Any]) -> Fit:
@@ -57,4 +57,5 @@ def remembered(model: Model, data: Data, said: dict[str, Any]) -> Fit:
     model = model.with_values({name: float(value) for name, value in said["values"].items()})
     residuals = residuals_of(model, data)
     return Fit(model, said["sides"], said["covariance"], residuals, shifted(data),
-               {name: runs(row) for name, row in residuals.of.items()}, said["unknown"], said["sure"])  # fmt: skip
+               {name: runs(row) for name, row in residuals.of.items()}, said["unknown"], said["sure"],
+               said.get("given_up", False))  # fmt: skip

@@ -10,19 +10,18 @@ It prints angles in rad, and all other numbers in units of R, M and g.
 """
 
 from app.model.measured.data import settled
-from app.model.measured.fit import fit
-from app.model.measured.motion import model_of
+from app.model.measured.fit import fit_both
 from app.model.measured.table import read
+from app.model.measured.work import models
 from tippe_core import Scales, Top
 
 TABLE = """{table}"""
 
 data = settled(read(TABLE)).between({start!r}, {end!r})
 top, scales = Top({a!r}, {I1!r}, {I3!r}), Scales({R!r}, {M!r}, {g!r})
-for name in {names!r}:
-    model = model_of(name, top, scales, loose={loose!r}){edge}
-    found = fit(model, data)
-    print(name, f"chi-square {{found.chi2:.1f}} for {{found.freedom}} degrees of freedom")
+rolling, sliding = models(top, scales, None, {law!r}, {loose!r})
+for found in fit_both((rolling{edge}, sliding{edge}), data):
+    print(found.model.name, f"chi-square {{found.chi2:.1f}} for {{found.freedom}} degrees of freedom")
     for number, error in found.errors.items():
         print(f"  {{number}} = {{found.model.values[number]:.6g}} +- {{error:.2g}}")
 '''
@@ -45,5 +44,5 @@ def program(data: Data, fits: tuple[Fit, ...], loose: tuple[str, ...], start: fl
     edge = "" if model.edge is None else f".with_stem({model.edge!r}, {model.tip!r})"
     start, end = round(start, MICRO), round(end, MICRO)
     return PROGRAM.format(table=table_of(data), start=start, end=end, a=top.a, I1=top.I1, I3=top.I3, R=scales.R,
-                          M=scales.M, g=scales.g, names=tuple(fit.model.name for fit in fits), loose=loose,
+                          M=scales.M, g=scales.g, law=fits[-1].model.name, loose=loose,
                           edge=edge)  # fmt: skip

@@ -5,6 +5,7 @@ What cannot be read raises a MeasuredError with its line; what was read but left
 
 import json
 import math
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -15,11 +16,13 @@ import numpy as np
 
 from app.model.measured import unpack
 from app.model.measured.cells import MeasuredError, Notes, cells_of
-from app.model.measured.names import UNITS, likely, understood, without_run
+from app.model.measured.names import UNITS, is_from_x, likely, understood, without_run
 from app.model.measured.points import Roles, guessed_view, roles_of, with_axis
 from app.model.measured.unpack import HEAD, LARGEST, PACKED, SECONDS, UNPACKED, decoded, is_packed
 from tippe_core.types import Array
 
+NO_GYROSCOPE = re.compile(r"accel|gravity|magnet|orient", re.I)
+"""In the name of a logger's file: it has the same columns for other sensors."""
 _OPENING = Lock()  # one file at a time
 
 
@@ -35,12 +38,23 @@ class Column:
     error: float | None
     values: Array
 
+    @property
+    def si(self) -> Array:
+        """The values in s (or frames), rad, rad/s or m; an angle that is counted from +x as one from the upright. Those
+        of a column that is not used as they are."""
+        if not self.quantity:
+            return self.values
+        values = self.values * UNITS[self.quantity][self.unit]
+        if self.quantity in ("line", "tilt") and is_from_x(self.name):
+            values = (np.pi / 2 - values + np.pi) % (2 * np.pi) - np.pi
+        return np.abs(values) if self.quantity == "tilt" and is_from_x(self.name) else values
+
 
 @dataclass(frozen=True, eq=False)
 class Table:
     """lines: the line number in the file of each row. notes: (code, numbers); the codes are keys of [notes] in
     measure.toml. runs: those in it; run: the one that is used. view: "side" or "above" if it has points of a film;
-    roles: what they are in each."""
+    roles: what they are in each. file: the name of its file, if that is known."""
 
     columns: tuple[Column, ...]
     lines: tuple[int, ...]
@@ -49,10 +63,11 @@ class Table:
     run: str = ""
     view: str = ""
     roles: Roles = field(default_factory=dict)
+    file: str = ""
 
     def of(self, run: str, view: str) -> "Table":
         """The Table with the columns of this run, and those of points as seen from there."""
-        return replace(self, columns=_chosen(self.columns, self.roles, run, view), run=run, view=view)
+        return replace(self, columns=_chosen(self.columns, self.roles, run, view, self.file), run=run, view=view)
 
 
 def text_inside(data: bytes) -> tuple[str, int]:
@@ -72,8 +87,8 @@ def text_inside(data: bytes) -> tuple[str, int]:
     raise MeasuredError(first, **second, **({"most": UNPACKED / 1e6} if first == "bomb" else {}))
 
 
-def read(data: bytes | str) -> Table:
-    """The Table in a file's bytes, or in a text. Raises MeasuredError, and nothing else."""
+def read(data: bytes | str, file: str = "") -> Table:
+    """The Table in a file's bytes, or in a text; file: its name. Raises MeasuredError, and nothing else."""
     if isinstance(data, bytes) and is_packed(data):
         data, _ = text_inside(data)
     size = len(data if isinstance(data, bytes) else data.encode("utf-8", "replace"))
@@ -88,7 +103,7 @@ def read(data: bytes | str) -> Table:
     runs = tuple(dict.fromkeys(run for name in names if (run := without_run(name)[1])))
     roles = {} if _is_logger(names) else roles_of(names)
     view = guessed_view(names, values) if roles else ""
-    table = Table(plain, tuple(map(int, cells.lines)), cells.notes, runs, roles=roles)
+    table = Table(plain, tuple(map(int, cells.lines)), cells.notes, runs, roles=roles, file=file)
     table = table.of(runs[0] if runs else "", view)
     return replace(table, notes=(*cells.notes, *_noted(table)))
 
@@ -110,13 +125,16 @@ def _noted(table: Table) -> Iterator[tuple[str, dict[str, object]]]:
             yield "gaps", {"name": column.name, "count": int(missing.sum()), "line": int(lines[missing][0])}
 
 
-def _chosen(columns: tuple[Column, ...], roles: Roles, run: str, view: str) -> tuple[Column, ...]:
-    """The columns, each as what its name says; of several with the same quantity, the one that says its unit."""
+def _chosen(columns: tuple[Column, ...], roles: Roles, run: str, view: str, file: str) -> tuple[Column, ...]:
+    """The columns, each as what its name says; of several with the same quantity, the one that says its unit. A run
+    without a time of its own has that of the first one."""
+    timed = {without_run(each.name)[1] for each in columns if understood(each.name)[0] == "time"}
     quantities: dict[int, str] = {}
     said = [understood(column.name) for column in columns]
     ranks: dict[str, tuple[bool, bool, int]] = {}
     for i, (quantity, unit, _) in enumerate(said):
-        elsewhere = i in roles or without_run(columns[i].name)[1] not in ("", run)
+        of_run = run if quantity != "time" or run in timed else min(timed, default="")
+        elsewhere = i in roles or without_run(columns[i].name)[1] not in ("", of_run)
         if not quantity or elsewhere or not np.isfinite(columns[i].values).any():
             continue
         counted = likely(quantity, columns[i].values, columns[i].name) != "frames"
@@ -130,6 +148,7 @@ def _chosen(columns: tuple[Column, ...], roles: Roles, run: str, view: str) -> t
             quantities[i] = quantity
     if _is_logger([column.name for column in columns]):  # its z is the axis through the phone's screen
         z = next((i for i, column in enumerate(columns) if column.name.strip().lower() == "z"), None)
+        z = None if NO_GYROSCOPE.search(file) else z
         quantities = {i: each for i, each in quantities.items() if each == "time"} | ({} if z is None else {z: "spin"})
     return tuple(taken_as(column, quantities.get(i, "")) for i, column in enumerate(columns))
 

@@ -66,14 +66,15 @@ def text_of(data: bytes) -> str:
 
 
 def _of_archive(archive: zipfile.ZipFile, inside: dict[str, zipfile.ZipInfo]) -> bytes:
-    """The table in a zip: phyphox's raw data, else Tracker's file, else the largest table."""
+    """The table in a zip: phyphox's raw data, a logger's gyroscope, Tracker's file, or else the largest table."""
     tables = [name for name in inside if re.search(r"\.(csv|tsv|txt|trk)$", name, re.I)
               and not re.match(r"(__MACOSX|meta)/", name)]  # fmt: skip
     if not tables:
         raise Wrong("nothing-inside", {"count": len(inside)})
 
-    def rank(name: str) -> tuple[bool, bool, int]:
-        return bool(re.search(r"raw ?data\.csv$", name, re.I)), name.lower().endswith(".trk"), inside[name].file_size
+    def rank(name: str) -> tuple[int, int]:
+        kinds = r"raw ?data\.csv$", r"(^|/)gyro(scope)?\.csv$", r"\.trk$"
+        return -next((i for i, kind in enumerate(kinds) if re.search(kind, name, re.I)), 3), inside[name].file_size
 
     return archive.read(max(tables, key=rank))
 

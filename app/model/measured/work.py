@@ -7,7 +7,7 @@ import numpy as np
 
 from app.model.measured.cells import MeasuredError
 from app.model.measured.data import Data
-from app.model.measured.fit import Fit, fit
+from app.model.measured.fit import Fit, fit_both
 from app.model.measured.kept import Kept, kept
 from app.model.measured.motion import Model, model_of
 from app.model.measured.remembered import remembered
@@ -61,7 +61,7 @@ def part_of(data: Data, start: float, end: float) -> Data:
 
 def found(data: Data, both: tuple[Model, Model]) -> Found:
     """Fits both Models; takes seconds and can be stopped. Raises TopError."""
-    return _of_both(data, *(fit(model, data) for model in both))
+    return _of_both(data, *fit_both(both, data))
 
 
 def found_again(data: Data, both: tuple[Model, Model], fits: tuple[dict[str, Any], ...]) -> Found:

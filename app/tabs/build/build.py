@@ -1,22 +1,23 @@
 """The widgets of the builder: the section with its handles, the dimensions, presets, files, and a measured top."""
 
 import html
-import io
 import math
+from functools import partial
 
 import panel as pn
-import panel_material_ui as pmui
 
-from app.borrowed import WholeFile
 from app.model.build.builder import LARGEST_FILE
 from app.model.build.dimensions import FAMILIES, named, nearest, value_of
 from app.model.build.inside import inside
-from app.tabs.build.fields import grid, symbol
+from app.model.runs import Runs
+from app.tabs.build.fields import symbol
 from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
-from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
+from app.widgets.cards import alert, flow, note, words
 from app.widgets.choice import Choice
+from app.widgets.download import Download
+from app.widgets.forms import Button, Field, Menu, TextFile
 from app.widgets.numbers import Numbers, number, tidy, typed_number
 from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
@@ -43,24 +44,20 @@ class Pieces:
     def __init__(self, builder):
         self.builder, self._exact = builder, 0.0
         kinds = {says: kind for kind, says in listed("build.pieces.kinds").items()}
-        self.kind = pmui.Select(label=say("build.pieces.kind"), options=kinds, value="ball", size="small",
-                                width=120, margin=(8, 0, 0, 0))  # fmt: skip
+        self.kind = Menu(say("build.pieces.kind"), options=kinds, value="ball")
         spoken = listed("build.pieces.spoken")
-        self.entries = {name: field(value, spoken[name], width=58) for name, value in self.FIELDS}
-        self.density = field("", spoken["density"], width=78)
+        shows = {"r": "<i>r</i>"} | {name: say(f"build.pieces.{name}") for name in ("from", "to")}
+        self.entries = {name: Field(spoken[name], value=value, shows=shows[name], size=5)
+                        for name, value in self.FIELDS}  # fmt: skip
+        self.density = Field(spoken["density"], shows=say("build.pieces.names.density"))
         self.words = words()
-        self.put, self.take, self.undo = (
-            pmui.Button(label=say(f"build.pieces.{does}"), **BUTTON) for does in ("put", "take", "undo")
-        )
-        on_click(self.put, lambda event: self._compose(1))
-        on_click(self.take, lambda event: self._compose(-1))
-        on_click(self.undo, lambda event: builder.take_off())
+        self.put = Button(say("build.pieces.put"), lambda: self._compose(1))
+        self.take = Button(say("build.pieces.take"), lambda: self._compose(-1))
+        self.undo = Button(say("build.pieces.undo"), builder.take_off)
         self._view = pn.Column(
             words(note(say("build.pieces.says"))),
-            flow(self.kind, beside("<i>r</i>", self.entries["r"]),
-                 *(beside(say(f"build.pieces.{name}"), self.entries[name]) for name in ("from", "to")),
-                 beside(say("build.pieces.names.density"), self.density),
-                 self.put, self.take, self.undo),
+            flow(self.kind, *self.entries.values(), self.density),
+            flow(self.put, self.take, self.undo),
             self.words, sizing_mode="stretch_width", margin=0)  # fmt: skip
 
     @property
@@ -109,14 +106,11 @@ class Inside:
         self.steel.visible = kind in ("disc", "both")
 
 
-class TopFile(WholeFile):
-    LARGEST = LARGEST_FILE
-
-
 class Build:
-    """The builder's cards. builder: a Builder. show() is for each scene of a hand at rest."""
+    """The builder's cards. builder: a Builder; runs: the page's Runs. show() is for each scene of a hand at rest."""
 
-    def __init__(self, builder):
+    def __init__(self, builder, runs=None):
+        runs = runs or Runs()
         self.builder, self._tried = builder, {}  # the last requested value of a dimension, in its unit
         self._dimensions, self._shown, self._silent = {}, None, False
         self.section = Section(builder.set)
@@ -128,19 +122,18 @@ class Build:
         self.inside = Inside(builder.fill)
         self.dimensions = Numbers([], self._pull, margin=(6, 0))
         self.section.figure.on_event("doubletap", self._tapped_twice)
-        self.parting = self._button("parts", lambda event: builder.part_densities())
-        buttons = flow(self._button("add", lambda event: builder.add_point()), self._button("remove", self._remove),
-                       self.parting)  # fmt: skip
+        self.parting = self._button("parts", builder.part_densities)
+        buttons = flow(self._button("add", builder.add_point), self._button("remove", self._remove), self.parting)
         self.points = pn.Column(words(note(say("build.bench.twice"))), buttons, sizing_mode="stretch_width",
                                 margin=0)  # fmt: skip
         self.pieces = Pieces(builder)
-        self.stl = self._download("stl", "top.stl", lambda: builder.stl() or b"")
-        self.saved = self._download("save", "top.json", lambda: builder.save().encode())
-        self.file = TopFile(label=say("build.bench.load"), accept=".json", multiple=False,
-                            max_file_size=LARGEST_FILE, **BUTTON)  # fmt: skip
-        self.file.param.watch(self._loaded, "value", onlychanged=False)
-        self.file.param.watch(lambda event: builder.refuse_file(LARGEST_FILE), "refused")
-        self.back = self._button("back", lambda event: builder.attach())
+        self.stl = Download(runs, lambda: (builder.stl() or b"",), bytes, label=say("build.bench.stl"),
+                            filename="top.stl", margin=0)  # fmt: skip
+        self.saved = Download(runs, lambda: (builder.save(),), str.encode, label=say("build.bench.save"),
+                              filename="top.json", margin=0)  # fmt: skip
+        self.file = TextFile(say("build.bench.load"), builder.load, partial(builder.refuse_file, LARGEST_FILE),
+                             accept=".json", most=LARGEST_FILE)  # fmt: skip
+        self.back = self._button("back", builder.attach)
         self.parted = pn.Column(
             words(f'<div class="alert">{say("build.bench.parted")}</div>'), self.back,
             visible=False, sizing_mode="stretch_width", margin=0)  # fmt: skip
@@ -153,18 +146,15 @@ class Build:
         self.builder.set(name, value / self._dimensions[name].factor)
 
     def _choice(self, key, choose):
-        select = pmui.Select(label=say(f"build.bench.{key}"), options={}, value=None, size="small",
-                             margin=(10, 6, 4, 0), sizing_mode="stretch_width")  # fmt: skip
+        select = Menu(say(f"build.bench.{key}"))
         select.param.watch(lambda event: None if self._silent or not event.new else choose(event.new), "value")
         return select
 
     @staticmethod
     def _button(key, click):
-        button = pmui.Button(label=say(f"build.bench.{key}"), **BUTTON)
-        on_click(button, click)
-        return button
+        return Button(say(f"build.bench.{key}"), click)
 
-    def _remove(self, event):
+    def _remove(self):
         last = len(self.builder.draft.shape.points) - 1
         held, self.section.last_point = self.section.last_point, None
         self.builder.remove_point(last if held is None else min(held, last))
@@ -178,18 +168,6 @@ class Build:
             elif not name:
                 self.builder.add_point(event.x / 1e3, event.y / 1e3)
 
-    @staticmethod
-    def _download(key, filename, content):
-        given = {name: value for name, value in BUTTON.items() if name != "variant"}
-
-        def file():
-            button.data = None  # the browser saves data that are new to it, so the same body would be saved only once
-            return io.BytesIO(content())
-
-        button = pmui.FileDownload(label=say(f"build.bench.{key}"), filename=filename, callback=file, **given)
-        button.variant = BUTTON["variant"]  # given to the constructor, Panel takes it for a contradiction, and warns
-        return button
-
     @property
     def section_view(self):
         """The section, the results, and whether the explorer's numbers are still those of the body."""
@@ -200,7 +178,7 @@ class Build:
     def bench_view(self):
         """The inputs."""
         files = flow(self.saved, self.file, self.stl)
-        choices = grid(self.presets, self.families, self.material.view)
+        choices = flow(self.presets, self.families, self.material.view)
         return [
             choices,
             self.source,
@@ -211,10 +189,6 @@ class Build:
             files,
             self.file_words,
         ]
-
-    def _loaded(self, event):
-        if event.new:
-            self.builder.load(event.new)
 
     def _show(self, draft):
         with pn.io.hold():

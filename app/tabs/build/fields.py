@@ -1,6 +1,4 @@
-"""Symbols and rows that the builder's cards share."""
-
-import panel as pn
+"""The letters of dimensions."""
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
            "I3": "<i>I</i><sub>3</sub>"}  # fmt: skip
@@ -13,12 +11,3 @@ def symbol(name):
     if name.startswith("density ") or name in WORDS:
         return ""
     return SYMBOLS.get(name, f"<i>{name}</i>")
-
-
-def grid(*content):
-    """A row that wraps."""
-    return pn.Column(
-        *content, sizing_mode="stretch_width", margin=(6, 0),
-        styles={"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 215px), 1fr))",
-                "column-gap": "22px"},
-    )  # fmt: skip

@@ -1,9 +1,8 @@
 """The choice of what a body is made of, which sets its density."""
 
-import panel_material_ui as pmui
-
 from app.model.build.materials import MATERIALS, density_of, material
 from app.text import listed, say
+from app.widgets.forms import Menu
 
 OTHER = ""  # because a select cannot show that nothing is chosen
 
@@ -15,8 +14,7 @@ class Material:
         self._silent, self._choose = False, choose
         self._known = {say("build.bench.of_density", name=says, density=MATERIALS[name]): name
                        for name, says in listed("build.materials").items()}  # fmt: skip
-        self.view = pmui.Select(label=say("build.bench.material"), options=self._known, value="lime", size="small",
-                                margin=(10, 6, 4, 0), sizing_mode="stretch_width")  # fmt: skip
+        self.view = Menu(say("build.bench.material"), options=self._known, value="lime")
         self.view.param.watch(self._chosen, "value")
 
     def _chosen(self, event):

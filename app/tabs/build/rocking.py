@@ -1,13 +1,10 @@
 """A top of one's own, measured with a stopwatch, a balance and a caliper."""
 
-import panel as pn
-import panel_material_ui as pmui
-
 from app.model.build.builder import Rocking
 from app.model.build.dimensions import sentence
-from app.tabs.build.fields import grid
 from app.text import listed, say
-from app.widgets.cards import BUTTON, alert, field, note, on_click, words
+from app.widgets.cards import alert, flow, note, words
+from app.widgets.forms import Button, Field
 from app.widgets.numbers import typed_number
 from tippe_core import TopError
 
@@ -21,10 +18,10 @@ class RockingFields:
     def __init__(self, builder):
         self.builder = builder
         spoken = listed("build.own.spoken")
-        self.entries = {name: field(value, spoken[name]) for name, value, _ in self.FIELDS}
+        shows = listed("build.own.fields")
+        self.entries = {name: Field(spoken[name], value=value, shows=shows[name]) for name, value, _ in self.FIELDS}
         self.formula, self.result = words(say("build.own.formula")), words()
-        self.use = pmui.Button(label=say("build.own.explore"), **BUTTON | {"margin": (4, 0)})
-        on_click(self.use, self._use)
+        self.use = Button(say("build.own.explore"), self._use, margin=(4, 0))
         for entry in self.entries.values():
             entry.param.watch(lambda event: self._show(), "value")
         builder.param.watch(lambda event: self._show(), "draft")
@@ -33,11 +30,7 @@ class RockingFields:
     @property
     def view(self):
         """Fields, formula, answer."""
-        fields = [
-            pn.Row(words(note(says), margin=(5, 6, 0, 0)), self.entries[name], sizing_mode="stretch_width",
-                   margin=(2, 0))
-            for name, says in listed("build.own.fields").items()]  # fmt: skip
-        return [words(say("build.own.says")), self.formula, grid(*fields), self.result, self.use]
+        return [words(say("build.own.says")), self.formula, flow(*self.entries.values()), self.result, self.use]
 
     def _found(self):
         """(Rocking, Measured); raises TopError, ValueError."""
@@ -69,6 +62,6 @@ class RockingFields:
             diameter=found.shares["R"], below=found.value * rocking.D / 2 * 1e3,
             I1=self.builder.draft.shape.top.I1)  # fmt: skip
 
-    def _use(self, event):
+    def _use(self):
         rocking, found = self._found()
         self.builder.measured(M=rocking.M, R=rocking.D / 2, a=found.value)

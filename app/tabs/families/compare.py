@@ -5,7 +5,6 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-import panel_material_ui as pmui
 from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d, Scatter
 from bokeh.palettes import Viridis256
 
@@ -14,8 +13,9 @@ from app.model.colours import FAINT, INK
 from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
-from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, progress, words
+from app.widgets.cards import alert, flow, note, progress, words
 from app.widgets.choice import Choice
+from app.widgets.forms import Button, Field
 from app.widgets.numbers import typed_number
 from app.widgets.plots import draw, plain
 from tippe_core import TopError, TruncatedSphere
@@ -38,7 +38,8 @@ class Compare:
         self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
         spoken = {name: say(f"controls.inputs.{name}.spoken") for name, _ in self.FIELDS}
-        self.entries = {name: field("", say("family.map.entry", name=spoken[name]), width=76) for name in spoken}
+        self.entries = {name: Field(say("family.map.entry", name=spoken[name]), shows=symbol)
+                        for name, symbol in self.FIELDS}  # fmt: skip
         self._prefill()
         self.said = words()
         self.map = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*_sides(RATIOS)), name="map")
@@ -55,10 +56,8 @@ class Compare:
         fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{0.000}, I₃/I₁ $y{0.00}: @share{0.00}"))
         self._show_span()
         self.bar = words(visible=False, margin=(8, 0))
-        self.start = pmui.Button(label=say("family.map.start"), **BUTTON)
-        self.cancel = pmui.Button(label=say("family.map.cancel"), disabled=True, **BUTTON)
-        on_click(self.start, self.compute)
-        on_click(self.cancel, lambda event: self._run and self._run.stop())
+        self.start = Button(say("family.map.start"), self.compute)
+        self.cancel = Button(say("family.map.cancel"), lambda: self._run and self._run.stop(), disabled=True)
 
     @staticmethod
     def _buttons(table):
@@ -68,11 +67,10 @@ class Compare:
     @property
     def map_view(self):
         """The map of the share, and the buttons that start and stop it."""
-        with_these = [beside(symbol, self.entries[name]) for name, symbol in self.FIELDS]
         return [
             self.kind,
             words(say("family.map.says"), margin=(6, 0)),
-            flow(*with_these, self.start, self.cancel, margin=(0, 0, 6, 0)),
+            flow(*self.entries.values(), self.start, self.cancel, margin=(0, 0, 6, 0)),
             self.bar,
             self.said,
             words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
@@ -114,7 +112,7 @@ class Compare:
                 raise TopError(name, values[name], allowed)
         return values
 
-    def compute(self, event=None):
+    def compute(self):
         """Computes the map in a thread. If it is impossible, a sentence says why."""
         a = SPANS[self.kind.value]
         try:

@@ -3,7 +3,6 @@
 from functools import partial
 
 import numpy as np
-import panel_material_ui as pmui
 import param
 
 from app.borrowed import at_once
@@ -16,7 +15,8 @@ from app.model.setup import PATCH
 from app.state import asked
 from app.tabs.families.drawings import pair
 from app.text import listed, say
-from app.widgets.cards import BUTTON, alert, flow, note, on_click, words
+from app.widgets.cards import alert, flow, note, words
+from app.widgets.forms import Button
 
 HIGH = 620  # px
 POINTS = 80  # of an outline
@@ -46,10 +46,8 @@ class Tops:
             at_once(self.map, name)
             self.map.param.watch(asked.heard(does), name)
         self.head, self.figures = words(margin=(0, 0, 6, 0)), words()
-        self.use, self.change = (pmui.Button(label=say(f"family.tops.{does}"), **BUTTON) for does in ("use", "change"))
-        self.use.variant = "contained"
-        on_click(self.use, lambda event: use(self._top.name))
-        on_click(self.change, lambda event: change(self._top.name))
+        self.use = Button(say("family.tops.use"), lambda: use(self._top.name), kind="primary")
+        self.change = Button(say("family.tops.change"), lambda: change(self._top.name))
         self._top = None
         self._look(known_of(scene) or known_tops()[0])
 

@@ -2,114 +2,48 @@
 the map of all tops."""
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Label, MultiLine, Range1d, Scatter, Segment, Span, Text
+from bokeh.models import ColumnDataSource, Label, MultiLine, Range1d, Scatter, Segment, Text
 
 from app.bundle import call
 from app.model.build.dimensions import named
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.families.groups import areas
-from app.model.lab.tracks import QUANTITIES, ledger, tracks
+from app.model.lab.tracks import ledger
 from app.model.lab.wells import wells
-from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
-from app.model.setup import TABLES
-from app.tabs.lab.words import LOOKS
+from app.model.setup import OF_LAW
 from app.text import listed, say, written
-from app.widgets.plots import draw, on_click, on_pointer, plain
+from app.widgets.plots import draw, on_click, plain
+from app.widgets.times import TimeFigures
 from tippe_core import PRESETS as BODIES
 
 CLOCK = "lab"
-IN_RIBBON = (ROLLS, SLIPS, GLIDES, FLIES, WOULD_LIFT, ENDS)
 LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
-          "height": COLOURS["jellett"], "heat": COLOURS["friction"]}  # fmt: skip
+          "height": COLOURS["energy"], "heat": COLOURS["energy_wash"]}  # fmt: skip
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
 MAP_PX, LETTER_PX = (300, 300), 6  # the map's size, and the width of a letter, approximate, to keep names apart
 NEAR = 0.035  # of the map's width: a click this near to a known top selects it
 SAME = 1e-3  # two tops this near each other on the map share one mark
 
 
-class Figures:
-    """Quantities over time, the energies and the ribbon of regimes, each with a line at the time of the clock."""
+class Times(TimeFigures):
+    """The quantities of the runs over time, and below them where the energy of the one that is watched is."""
 
     def __init__(self):
-        self.x_range = Range1d(0, 1)
-        self.spans, self.figures = [], {}
-        for name in (*QUANTITIES, "ledger", "regime"):
-            self.figures[name] = fig = plain(x_range=self.x_range, y_range=Range1d(0, 1), name=f"planes-{name}")
-            fig.min_border_left = 50
-            fig.yaxis.ticker.desired_num_ticks = 3
-            fig.xaxis.visible = name == "regime"
-            self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
-            fig.add_layout(self.spans[-1])
-        self.figures["regime"].yaxis.visible = False
-        self.figures["regime"].grid.visible = False
-        self.figures["normal"].add_layout(
-            BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
-        )
-        columns = [prefix + name for name in QUANTITIES for prefix in ("", "t_")]
-        self.curves = {plane: ColumnDataSource({name: [] for name in columns}) for plane in TABLES}
-        self.lines = {
-            (plane, name): self.figures[name].line(
-                f"t_{name}", name, source=source, line_color=LOOKS[plane], line_width=2, name=plane
-            )
-            for plane, source in self.curves.items()
-            for name in QUANTITIES
-        }
+        super().__init__(CLOCK)
         self.energies = ColumnDataSource({name: [] for name in ("t", *LEDGER)})
-        self.figures["ledger"].varea_stack(list(LEDGER), x="t", color=list(LEDGER.values()), source=self.energies)
-        self.unit = ColumnDataSource(tags=[1.0])  # s in one unit of the clock's time
-        self.ribbons = ColumnDataSource({name: [] for name in ("start", "end", "low", "high", "colour")})
-        self.figures["regime"].quad(
-            left="start", right="end", bottom="low", top="high", fill_color="colour", line_color=None,
-            source=self.ribbons,
-        )  # fmt: skip
-        self.figures["theta"].js_on_change(
-            "inner_width", call("followSpans", spans=self.spans, path=self.unit, range=self.x_range, clock=CLOCK)
-        )
-        for fig in self.figures.values():
-            on_pointer(fig, call("seekAlong", path=self.unit, clock=CLOCK))
+        self.add("ledger").varea_stack(list(LEDGER), x="t", color=list(LEDGER.values()), fill_alpha=0.6,
+                                     source=self.energies)  # fmt: skip
 
     def show(self, scene, until=np.inf):
         """Draws the motions of a LabScene, at first up to a time (s)."""
-        scales, end = scene.start.scales, 0.0
-        ribbons = []
-        for plane in TABLES:
-            motion = scene.motions[plane]
-            if motion is None:
-                self.curves[plane].data = {name: [] for name in self.curves[plane].data}
-                continue
-            found, end = tracks(motion, scales), max(end, float(motion.t[-1]) * scales.time)
-            self.curves[plane].data = {f"t_{name}": track.t for name, track in found.items()} | {
-                name: track.value for name, track in found.items()
-            }
-            ribbons += [(plane, a * scales.time, b * scales.time, which) for a, b, which in motion.stretches]
-        row = [TABLES.index(plane) for plane, *_ in ribbons]
-        self.ribbons.data = {
-            "start": [start for _, start, _, _ in ribbons],
-            "end": [end for _, _, end, _ in ribbons],
-            "low": [i + 0.1 for i in row],
-            "high": [i + 0.9 for i in row],
-            "colour": [COLOUR[int(which)] for *_, which in ribbons],
-        }
-        self.unit.tags = [scales.time]
-        self.x_range.update(start=0, end=min(end, until))
-        for name in QUANTITIES:
-            shown = [self.curves[which].data[name] for which in TABLES]
-            shown = np.concatenate([values for values in shown if len(values)] or [np.zeros(1)])
-            low, high = float(shown.min()), float(shown.max())
-            low = min(0.0, low) if name != "omega3" else low
-            if name == "normal":
-                high = max(1.5, high)
-            pad = 0.08 * (high - low) or 0.05 * (1 + abs(high))
-            self.figures[name].y_range.update(start=low - pad, end=high + pad)
-        row = TABLES.index(scene.table) if scene.table in TABLES else None
-        self.figures["regime"].y_range.update(start=row or 0, end=len(TABLES) if row is None else row + 1)
-        motion = scene.motions[scene.watched]
-        if motion is None:
-            self.energies.data = {name: [] for name in ("t", *LEDGER)}
-            return
-        t, parts = ledger(motion, scales)
+        start, motion = scene.start, scene.motions[scene.watched]
+        moved = {table: each.trajectory for table, each in scene.motions.items() if each is not None}
+        limit = start.mu if scene.watched != "ice" and "mu" in OF_LAW[start.law] else None
+        events = [t for t, *_ in scene.events]
+        self.show_motions(moved, scene.watched, start.scales, mu=limit, until=until, events=events)
+        t, parts = ledger(motion, start.scales) if motion is not None else ([], dict.fromkeys(LEDGER, np.empty(0)))
         self.energies.data = {"t": t} | parts
-        self.figures["ledger"].y_range.update(start=0, end=1.05 * float(sum(parts.values()).max()) or 1.0)
+        self.figures["ledger"].y_range.update(start=0, end=1.05 * sum(parts.values()).max(initial=0.0) or 1.0)
 
 
 class Well:

@@ -24,6 +24,7 @@ from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
 from app.tabs.lab.words import is_caught, notes
 from app.text import listed, say, speaking, spoken
+from app.widgets.controls import valid
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
@@ -124,6 +125,7 @@ class LabTab:
     def __init__(self, lab, rests, **leads):
         self._lab, self._leads, self._quiet, self._looks = lab, leads, Quiet(rests), 0
         self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
+        self._rolls = ""
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
@@ -134,6 +136,13 @@ class LabTab:
     def _opened(self, event):
         self._shown = None  # more is said
         self.show()
+
+    def follow(self, scene):
+        """Names the stage's picture as old while a value of the rolling motion, a Scene, is refused."""
+        rolls = valid(scene)
+        if rolls != self._rolls:
+            self._rolls = rolls
+            self.show()
 
     def _heard(self, event):
         """A request from the browser."""
@@ -230,7 +239,7 @@ class LabTab:
             "friction": [start.law, start.landing, start.stem],
             "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
-            "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), ""),
+            "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), self._old_rolling()),
             "was": self._differ(scene.start, self._lab.inputs[1]),
             "wants": self._differ(self._lab.inputs[1], scene.start),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
@@ -238,6 +247,9 @@ class LabTab:
             "busy": lab.busy,
             "reached": lab.reached,
         }
+
+    def _old_rolling(self):
+        return "" if self.view.level == LEVELS[0] else spelled(self._rolls)
 
     def _told(self, scene):
         view, start, slides = listed("lab_view.view"), scene.start, scene.table in ("ordinary", "three")

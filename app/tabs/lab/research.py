@@ -10,21 +10,21 @@ import param
 from app.model.colours import COLOURS
 from app.model.lab.moments import moments
 from app.model.lab.nudged import hits, nudged
-from app.model.regimes import COLOUR, NAMES
 from app.model.runs import LATER, Run, Stopped
 from app.state import asked
 from app.state.names import PANELS
-from app.tabs.lab.figures import IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well
+from app.tabs.lab.figures import LEDGER, Map, Times, Well
 from app.tabs.lab.rolling import Rolling
-from app.tabs.lab.words import LOOKS, ball_words, run_words, scatter_words, table_words
+from app.tabs.lab.words import ball_words, run_words, scatter_words, table_words
 from app.text import say, written
 from app.widgets.cards import note, swatch, words
 from app.widgets.choice import Choice
 from app.widgets.moments import Moments
+from app.widgets.times import ROWS, key, row
 
 ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
 AUTO, WHOLE = "auto", {"height": "max-content", "max-height": "none"}
-AROUND = ":host { padding: 12px 24px 12px 0 } @media (max-width: 1199px) { :host { padding: 12px 16px } }"
+AROUND = ":host { padding: 12px 24px 12px var(--edge, 0) } @media (max-width: 1199px) { :host { padding: 12px 16px } }"
 TABLE = (
     f":host {{ --kept: {COLOURS['normal']} }}"
     + """
@@ -41,14 +41,14 @@ class Research(param.Parameterized):
     while it is.
 
     pacer: the page's Pacer; lab: its Lab; runs: its Runs; controls: the view of the inputs of a rolling motion; choose:
-    called with the name of a body. open: whether the page shows it.
+    called with the name of a body; follow: with each rolling Scene, at once. open: whether the page shows it.
     """
 
     panel = param.Selector(default=AUTO, objects=[AUTO, *PANELS], doc='the panel; "auto": as fits the table')
 
-    def __init__(self, pacer, lab, runs, controls, choose):
+    def __init__(self, pacer, lab, runs, controls, choose, follow):
         super().__init__()
-        self._pacer, self._lab, self._runs, self._choose = pacer, lab, runs, choose
+        self._pacer, self._lab, self._runs, self._choose, self._follow = pacer, lab, runs, choose, follow
         self._made, self._drawn, self._open = {}, {}, False
         self._switch = Choice({say(f"research.panels.{name}"): name for name in PANELS}, PANELS[0], margin=(0, 0, 4, 0))
         self._switch.param.watch(self._chosen, "value")
@@ -113,6 +113,8 @@ class Research(param.Parameterized):
                     self._draw(when)
 
     def _on_scene(self, when, scene):
+        if when == "hand":
+            self._follow(scene)
         self._draw(when)
 
     def _on_run(self):
@@ -132,30 +134,20 @@ class Research(param.Parameterized):
     # ---- panels of the run: their content, and what draws it ----
 
     def _make_times(self):
-        figures = Figures()
+        figures = Times()
+        energies = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
+        tables = words(f'<div class="key">{key()}</div>', visible=False)
 
-        def row(label, figure, height):
-            return pn.Row(
-                words(f'<div class="quantity">{label}</div>', width=52, sizing_mode="stretch_height",
-                      margin=(6, 0, 0, 0)),
-                pn.pane.Bokeh(figure, sizing_mode="stretch_both", margin=0),
-                sizing_mode="stretch_width", height=height, margin=0,
-            )  # fmt: skip
+        def show(scene):
+            tables.visible = scene.table == "three"
+            figures.show(scene, self._span(scene))
 
-        shown = figures.figures
-        tables = "".join(swatch(colour, say(f"planes.looks.{table}")) for table, colour in LOOKS.items())
-        ledger = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
-        regimes = "".join(swatch(COLOUR[code], say(f"regimes.stretch.{NAMES[code]}")) for code in IN_RIBBON)
         content = [
-            words(f'<div class="key">{tables}</div>'),
-            *(row(say(f"planes.quantities.{name}"), shown[name], 96) for name in QUANTITIES),
-            words(f'<div class="key" style="margin-top: 6px">{say("planes.keys.ledger")}{ledger}</div>'),
-            row(say("planes.keys.energy"), shown["ledger"], 130),
-            words(f'<div class="key" style="margin-top: 6px">{regimes}</div>'),
-            row("", shown["regime"], 56),
-            words(f'<div class="axis">{say("planes.keys.time")}</div>'),
-        ]
-        return content, {"lab": lambda scene: figures.show(scene, self._span(scene))}
+            tables, *(row(figures, name, 84) for name in ROWS),
+            words(f'<div class="key" style="margin-top: 6px">{say("planes.keys.ledger")}{energies}</div>'),
+            row(figures, "ledger", 130), words(f'<div class="axis">{say("planes.keys.time")}</div>'),
+        ]  # fmt: skip
+        return content, {"lab": show}
 
     def _span(self, scene):
         """For how long (s) the motion is drawn at first: some nods, if that is all that it does."""

@@ -4,16 +4,12 @@ import html
 
 import numpy as np
 
-from app.model.colours import COLOURS
 from app.model.motion import RTOL, THROWN
 from app.model.setup import TABLES
 from app.text import listed, say, written
-from app.widgets.cards import swatch
 from app.widgets.typeset import power
 from tippe_core import Coulomb
 
-# The colour of each table, the same in all pictures.
-LOOKS = {"ordinary": COLOURS["friction"], "rough": COLOURS["normal"], "ice": COLOURS["jellett"]}
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # A smaller drift is numerical error; physics changes a quantity by more.
 ROUNDING = 1e-7
@@ -145,7 +141,7 @@ def run_words(settings, table):
 def table_words(scene):
     """What is conserved on each table that is watched: the measured drift."""
     shown = [table for table in TABLES if scene.motions[table] or table in scene.refused]
-    head = "".join(f"<th>{swatch(LOOKS[table], say(f'planes.plane.{table}'))}</th>" for table in shown)
+    head = "".join(f"<th>{say(f'planes.plane.{table}')}</th>" for table in shown)
     rows = []
     for name in SURVIVES:
         cells = []

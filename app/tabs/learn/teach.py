@@ -2,13 +2,11 @@
 
 import re
 
-import panel as pn
-import panel_material_ui as pmui
-
 from app.model.lesson import lesson
 from app.state import names
 from app.text import listed, say
-from app.widgets.cards import PLAIN, card, grid, on_click, px, tall, words
+from app.widgets.cards import card, flow, grid, px, tall, words
+from app.widgets.forms import Button
 
 
 def link(step):
@@ -23,11 +21,8 @@ def bullets(items, ordered=False):
 
 def class_view(present, close):
     """The buttons that begin and end a class."""
-    buttons = [pmui.Button(label=say(f"teach.vote.{name}"), variant=variant, size="small", sx=PLAIN)
-               for name, variant in (("present", "contained"), ("close", "outlined"))]  # fmt: skip
-    for button, does in zip(buttons, (present, close), strict=True):
-        on_click(button, lambda event, does=does: does())
-    return [words(say("teach.vote.explain")), pn.Row(*buttons, margin=0, styles={"flex-wrap": "wrap"})]
+    buttons = Button(say("teach.vote.present"), present, kind="primary"), Button(say("teach.vote.close"), close)
+    return [words(say("teach.vote.explain")), flow(*buttons)]
 
 
 def teach_view(present, close):

@@ -4,18 +4,16 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 
-import panel_material_ui as pmui
-
 from app.model.maps.choice import FIXED
 from app.model.maps.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, written
-from app.widgets.cards import beside, field, flow, words
+from app.widgets.cards import flow, words
+from app.widgets.forms import Field, Menu
 from app.widgets.numbers import typed_number
 
 SIDES = "across", "up"
 LIMITS = ("from", "to")
-SELECT = {"size": "small", "width": 172, "margin": (8, 0, 0, 0)}
 
 
 class Settings:
@@ -30,15 +28,16 @@ class Settings:
             "colour": {listed("maps.colours")[name]: name for name in COLOURS_BY},
             "law": {listed("maps.laws")[name]: name for name in LAWS},
         }
-        self.choices = {name: pmui.Select(label=say(f"maps.{name}"), options=each, value=next(iter(each.values())),
-                                          **SELECT) for name, each in options.items()}  # fmt: skip
+        self.choices = {name: Menu(say(f"maps.{name}"), options=each, value=next(iter(each.values())))
+                        for name, each in options.items()}  # fmt: skip
         called, spoken = listed("maps.quantities"), {"seconds": say("maps.seconds"), "cells": say("maps.cells")}
         spoken |= {name: called[name] for name in FIXED}
         for side in SIDES:
             spoken |= {f"{side}_{end}": f"{say(f'maps.{side}')}, {say(f'maps.{end}')}" for end in LIMITS}
             spoken[f"here_{side}"] = f"{say('maps.here')}, {say(f'maps.{side}')}"
-        self.entries = {name: field("", says, width=66) for name, says in spoken.items()}
-        self.rows = {name: beside(_called(name, asked.law), self.entries[name]) for name in FIXED}
+        shows = {f"{side}_{end}": say(f"maps.{end}") for side in SIDES for end in LIMITS}
+        shows |= {name: say(f"maps.{name}") for name in ("seconds", "cells")}
+        self.entries = {name: Field(says, shows=shows.get(name, "")) for name, says in spoken.items()}
         self.show(asked, colour, place)
         for name, select in self.choices.items():
             select.param.watch(partial(self._chosen, name), "value")
@@ -50,11 +49,11 @@ class Settings:
         """In the order of the drawing: the axes, the colour, the law; then ranges and numbers."""
         entry = self.entries
         ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80, align="center"),
-                       *(beside(say(f"maps.{end}"), entry[f"{side}_{end}"]) for end in LIMITS), margin=(4, 0))
+                       *(entry[f"{side}_{end}"] for end in LIMITS), margin=(4, 0))
                   for side in SIDES]  # fmt: skip
         selects = [self.choices[name] for name in ("across", "up", "colour", "law")]
-        return [flow(*selects), *ranges, flow(*self.rows.values()),
-                flow(*(beside(say(f"maps.{name}"), entry[name]) for name in ("seconds", "cells")))]  # fmt: skip
+        return [flow(*selects), *ranges, flow(*(entry[name] for name in FIXED)),
+                flow(*(entry[name] for name in ("seconds", "cells")))]  # fmt: skip
 
     @property
     def place_view(self):
@@ -132,9 +131,9 @@ class Settings:
 
     def _show_rows(self):
         taken, law = (self.choices["across"].value, self.choices["up"].value), self.choices["law"].value
-        for name, row in self.rows.items():
-            row.visible = name not in taken and (name != "second" or bool(SECONDS[law]))
-            row[0].object = _called(name, law)
+        for name in FIXED:
+            is_asked = name not in taken and (name != "second" or bool(SECONDS[law]))
+            self.entries[name].param.update(visible=is_asked, shows=_called(name, law))
 
     def _write(self, values):
         for name, value in values.items():

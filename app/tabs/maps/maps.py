@@ -5,7 +5,6 @@ from dataclasses import replace
 from functools import partial
 
 import panel as pn
-import panel_material_ui as pmui
 
 from app.model.maps.body import outline_of
 from app.model.maps.choice import AT, MapChoice
@@ -24,9 +23,10 @@ from app.tabs.maps.stage import map_stage, show_run
 from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import body_of, colours_say, of_reason, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
-from app.widgets.cards import BUTTON, alert, flow, note, on_click, progress, words
+from app.widgets.cards import alert, flow, note, progress, words
 from app.widgets.copy import Copy
 from app.widgets.download import Download
+from app.widgets.forms import Button
 from tippe_core import TopError
 
 MAP = Map()
@@ -69,24 +69,13 @@ class Maps:
         self.map, self.curve = MapFigure(self._by_hand), RunFigure()
         self.stage = map_stage()
         self.steady = Steady(self._runs)
-        self.stop, self.closer, self.whole, self.thrown = (
-            pmui.Button(label=say(f"maps.{name}"), disabled=name == "stop", **BUTTON)
-            for name in ("stop", "closer", "whole", "throw")
-        )
-        shows = [pmui.Button(label=say("maps.show_one"), **BUTTON) for _ in self.whys]
-        # rows come and go, but not their buttons: a button that changes before its script has loaded breaks
-        # nor their container, whose own style would show all of it anyway
-        self.thrown_row, *self.show_rows = rows = [
-            pn.Column(flow(button), sizing_mode="stretch_width", margin=0) for button in (self.thrown, *shows)
-        ]
-        for row in rows:
-            row.visible = False
-        on_click(self.stop, lambda event: self._run and self._run.stop())
-        on_click(self.closer, lambda event: self.settings.look_at(*self._around()))
-        on_click(self.whole, lambda event: self.settings.look_at(*self._usual_spans()))
-        on_click(self.thrown, lambda event: self._to_lab(self.choice.place, look=True))
-        for i, button in enumerate(shows):
-            on_click(button, lambda event, i=i: self.go(*self._ones[i], cell=True))
+        self.stop = Button(say("maps.stop"), lambda: self._run and self._run.stop(), disabled=True)
+        self.closer = Button(say("maps.closer"), lambda: self.settings.look_at(*self._around()))
+        self.whole = Button(say("maps.whole"), lambda: self.settings.look_at(*self._usual_spans()))
+        self.thrown = Button(say("maps.throw"), lambda: self._to_lab(self.choice.place, look=True), kind="primary",
+                             visible=False)  # fmt: skip
+        self.shows = [Button(say("maps.show_one"), partial(self._show_one, i), kind="link", visible=False)
+                      for i in range(len(self.whys))]  # fmt: skip
         self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
         self.files = [
             Download(self._runs, lambda: (self.level, self.choice.colour), partial(_file, kind), label=kind.upper(),
@@ -107,9 +96,9 @@ class Maps:
                  words(note(say("maps.hint")))]  # fmt: skip
         below = [self.worst, *self.steady.view, words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)),
                  flow(*self.files), self.python]  # fmt: skip
-        whys = [part for pair in zip(self.whys, self.show_rows, strict=True) for part in pair]
+        whys = [part for pair in zip(self.whys, self.shows, strict=True) for part in pair]
         beside = [self.stage, self.run_says, _figure(self.curve.figure),
-                 words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown_row,
+                 words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown,
                  self.key, *whys, *self.settings.view]  # fmt: skip
         parts = [pn.Column(*content, margin=0, sizing_mode="stretch_width", styles=PART, css_classes=[name],
                            stylesheets=[ANSWER])
@@ -184,8 +173,8 @@ class Maps:
         self.map.begin(asked)
         for said in (self.key, self.worst, *self.whys):  # they belong to the previous map
             said.object = ""
-        for row in self.show_rows:
-            row.visible = False
+        for button in self.shows:
+            button.visible = False
         self._run = Run(partial(self._work, asked), partial(self._done, asked))
         known = recall(asked)
         self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)
@@ -241,9 +230,9 @@ class Maps:
             self._show(level)
             self.said.object = ""
             self.worst.object = note(of_worst(level))
-            for i, (why, row) in enumerate(zip(self.whys, self.show_rows, strict=True)):
-                row.visible = i < len(told_of)
-                why.object = of_reason(*told_of[i], asked) if row.visible else ""
+            for i, (why, button) in enumerate(zip(self.whys, self.shows, strict=True)):
+                button.visible = i < len(told_of)
+                why.object = of_reason(*told_of[i], asked) if button.visible else ""
             self.whys[0].object = (f"<h2>{say('maps.disagree')}</h2>" + self.whys[0].object if told_of
                                    else note(say("maps.agree")))  # fmt: skip
 
@@ -272,6 +261,9 @@ class Maps:
         self._to_lab((across, up), look=False)
         self._go([across, up])
 
+    def _show_one(self, i):
+        self.go(*self._ones[i], cell=True)
+
     def _go(self, place):
         if place == self.choice.place:
             self._show_place()  # a run that failed before is tried again
@@ -286,7 +278,7 @@ class Maps:
             Run(lambda run: one_run(asked, across, up, run.look), partial(self._ran, asked, across, up)), "maps-run"
         )
         self.steady.show(asked, (across, up))
-        self.thrown_row.visible = self._thrown((across, up)) is not None
+        self.thrown.visible = self._thrown((across, up)) is not None
 
     def _thrown(self, place):
         """The start of the run at a place in the Lab; None if it has none there."""

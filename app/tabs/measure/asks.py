@@ -4,14 +4,13 @@ by hand, for the next file with the same columns."""
 from dataclasses import replace
 
 import panel as pn
-import panel_material_ui as pmui
 
 from app.model.measured.points import VIEWS
 from app.text import say
 from app.widgets.cards import flow, note, words
 from app.widgets.choice import Choice
+from app.widgets.forms import Menu
 
-SELECT = {"size": "small", "margin": 0, "width": 170}
 REMEMBERED = 20  # tables
 DRAWN = """<svg width="150" height="52" viewBox="0 0 150 52" fill="none" stroke="currentColor" stroke-width="1.5"
 aria-hidden="true"><path d="M2 45h66M30 18l10-15"/><circle cx="24" cy="31" r="14"/><circle cx="112" cy="26" r="22"/>
@@ -23,7 +22,7 @@ class Asks:
 
     def __init__(self, changed):
         self._changed, self._table, self._chosen = changed, None, {}
-        self.run = pmui.Select(label=say("measure.which_run"), options=[""], value="", **SELECT)
+        self.run = Menu(say("measure.which_run"), options={"": ""}, value="")
         self.seen = Choice({say(f"measure.views.{view}"): view for view in VIEWS}, VIEWS[0])
         self._of_view = flow(words(note(say("measure.which_view")), sizing_mode=None), words(DRAWN, sizing_mode=None),
                              self.seen)  # fmt: skip
@@ -36,7 +35,7 @@ class Asks:
         table = table if anew else self._as_before(table)
         self._table = None  # no answer yet
         runs = list(table.runs)
-        self.run.param.update(options=runs or [""], value=table.run)
+        self.run.param.update(options={run: run for run in runs or [""]}, value=table.run)
         self.seen.value = table.view or VIEWS[0]
         self.view.objects = [self.run] * (len(runs) > 1) + [self._of_view] * bool(table.view)
         self._table = table

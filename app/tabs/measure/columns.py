@@ -5,15 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import panel as pn
-import panel_material_ui as pmui
 
 from app.model.measured.names import UNITS
 from app.model.measured.table import taken_as
 from app.text import say, written
-from app.widgets.cards import beside, field, flow, note, words
+from app.widgets.cards import flow, note, words
+from app.widgets.forms import Field, Menu
 from app.widgets.numbers import typed_number
 
-SELECT = {"size": "small", "margin": 0}
 FIRST = 4  # values
 
 
@@ -36,9 +35,9 @@ class Columns:
 
     def _ask_rate(self):
         """Makes an empty field for it."""
-        self.rate = field("", say("measure.rate"))
+        self.rate = Field(say("measure.rate"), shows=say("measure.rate"))
         self.rate.param.watch(lambda event: self._changed(self._table), "value")
-        self._of_rate.objects = [flow(words(say("measure.rate"), sizing_mode=None), self.rate)]
+        self._of_rate.objects = [self.rate]
 
     def show(self, table):
         """Shows a new table."""
@@ -62,24 +61,23 @@ class Columns:
         values = column.values[np.isfinite(column.values)][:FIRST]
         shown = "; ".join(written(value, ".4g") for value in values)
         name = words(f"<b>{html.escape(column.name)}</b><br>{note(f'{shown} …')}", sizing_mode=None, width=170)
-        quantity = pmui.Select(label=say("measure.column.quantity", name=column.name), value=column.quantity,
-                               options={says: key for key, says in _quantities().items()}, width=215,
-                               **SELECT)  # fmt: skip
-        unit = pmui.Select(label=say("measure.column.unit"), value=column.unit, width=104,
-                           options=[*UNITS.get(column.quantity, {"": 1})], **SELECT)  # fmt: skip
-        error = field("" if column.error is None else written(column.error, "g"), say("measure.column.error"), width=72)
-        guessed, of_error = words(_guessed(column), sizing_mode=None), beside("±", error)
+        quantity = Menu(say("measure.column.quantity", name=column.name), value=column.quantity,
+                        options={says: key for key, says in _quantities().items()})  # fmt: skip
+        unit = Menu(say("measure.column.unit"), value=column.unit, options=_units(column))
+        error = Field(say("measure.column.error"), value="" if column.error is None else written(column.error, "g"),
+                      shows="±")  # fmt: skip
+        guessed = words(_guessed(column), sizing_mode=None)
         self._errors = (*self._errors, error)
 
         def asks(column):
-            unit.visible, of_error.visible = bool(column.quantity), column.quantity not in ("", "time")
+            unit.visible, error.visible = bool(column.quantity), column.quantity not in ("", "time")
 
         asks(column)
 
         def correct(now):
             columns = (*self._table.columns[:i], now, *self._table.columns[i + 1 :])
             self._table = replace(self._table, columns=columns)
-            unit.param.update(options=[*UNITS.get(now.quantity, {"": 1})], value=now.unit)
+            unit.param.update(options=_units(now), value=now.unit)
             guessed.object = _guessed(now)
             asks(now)
             self.show_rate()
@@ -101,11 +99,15 @@ class Columns:
         quantity.param.watch(lambda event: correct(taken_as(self._table.columns[i], event.new or "")), "value")
         unit.param.watch(to_unit, "value")
         error.param.watch(to_error, "value")
-        return flow(name, quantity, unit, of_error, guessed, margin=(4, 0))
+        return flow(name, quantity, unit, error, guessed, margin=(4, 0))
 
 
 def _guessed(column):
     return note(say("measure.guessed")) if column.guessed else ""
+
+
+def _units(column):
+    return {unit: unit for unit in UNITS.get(column.quantity, {"": 1})}
 
 
 def _quantities():

@@ -4,14 +4,12 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-import panel_material_ui as pmui
 from bokeh.models import (
     BoxAnnotation,
     ColumnDataSource,
     FixedTicker,
     Label,
     Line,
-    NumeralTickFormatter,
     Range1d,
     Scatter,
     Span,
@@ -22,7 +20,8 @@ from app.bundle import call
 from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import draw, in_language, on_pointer, plain
+from app.widgets.forms import Stretch
+from app.widgets.plots import draw, on_pointer, plain
 
 SHOWN = dict.fromkeys(("tilt", "line", "azimuth"), 180 / np.pi) | dict.fromkeys(("spin", "precession"), 0.5 / np.pi)
 """{quantity: the factor from the unit of the data to that of the axis}; for lengths 1000, to mm."""
@@ -43,11 +42,9 @@ def named(fig, label):
     return fig
 
 
-def part_of_time():
-    """A slider with two handles, in s, with numbers in the page's language."""
-    return pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01,
-                            format=in_language(NumeralTickFormatter(format="0.000")), margin=(6, 12),
-                            sizing_mode="stretch_width")  # fmt: skip
+def part_of_time(does):
+    """A stretch in s."""
+    return Stretch(say("measure.part"), does, unit="s", margin=(6, 0, 6, LEFT), sizing_mode="stretch_width")
 
 
 def _heard(pulled, attr, old, new):
@@ -164,7 +161,7 @@ def constants(kept):
     """A figure for each constant of the motion, computed from the data alone, with its errors."""
     panes = []
     for name, constant in kept.items():
-        colour = COLOURS["jellett" if name == "K_J" else "omega"]
+        colour = COLOURS["jellett" if name == "K_J" else "routh"]
         fig = named(plain(), say("measure.kept.picture", name=say(f"measure.kept.{name}")))
         fig.update(sizing_mode="stretch_width", height=150, min_border_left=LEFT)
         fig.xgrid.visible = False

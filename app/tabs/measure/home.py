@@ -1,7 +1,6 @@
 """What can be taken home of a fit: files, and the data in the page's link."""
 
 import panel as pn
-import panel_material_ui as pmui
 
 from app.model.measured.film import packed
 from app.model.measured.report import program, residuals_table
@@ -9,6 +8,7 @@ from app.tabs.measure.report import report
 from app.text import say
 from app.widgets.cards import flow, note, words
 from app.widgets.download import Download
+from app.widgets.forms import Checks
 
 
 class Home:
@@ -18,7 +18,7 @@ class Home:
 
     def __init__(self, runs, filmed):
         self._filmed, self.film, self.fit = filmed, "", ()
-        self.in_link = pmui.Checkbox(label=say("measure.in_link"), value=False, margin=(4, 0))
+        self.in_link = Checks(options={say("measure.in_link"): "link"}, margin=(4, 0))
         self.in_link.param.watch(lambda event: self._put_in_link(), "value")
         self.of_link = words()
         self.view = pn.Column(flow(*self._downloads(runs)), self.in_link, self.of_link, sizing_mode="stretch_width",
@@ -35,7 +35,7 @@ class Home:
 
     def _put_in_link(self):
         """Puts the film into the link, if wanted and short enough."""
-        wanted = self.in_link.value
+        wanted = bool(self.in_link.value)
         if wanted and not self.film:  # not fitted yet
             return
         self._filmed.film = packed(self.film) if wanted else ""

@@ -1,9 +1,9 @@
 """The tab Measure: measurements of a filmed top beside fitted rolling and sliding motions."""
 
 from dataclasses import replace
+from functools import partial
 
 import panel as pn
-import panel_material_ui as pmui
 
 from app.model.bodies import body, outline
 from app.model.measured.cells import MeasuredError
@@ -27,8 +27,9 @@ from app.tabs.measure.recipe import recipes
 from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words, source_words
 from app.text import listed, say, told
-from app.widgets.cards import BUTTON, alert, flow, note, on_click, words
+from app.widgets.cards import alert, flow, note, words
 from app.widgets.choice import Choice
+from app.widgets.forms import Button, Checks
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
@@ -56,32 +57,26 @@ class Measure:
         self.home = Home(self._runs, self.filmed)
 
     def _make_controls(self):
-        self.part = part_of_time()
-        self.part.param.watch(lambda event: self._draw(), "value_throttled")
+        self.part = part_of_time(self._draw)
         self.law = Choice({says: law for law, says in listed("measure.laws").items()}, LAW)
         self.law.param.watch(lambda event: self._draw(), "value")
-        self.loose = pmui.CheckBoxGroup(label=say("measure.loose_label"), value=[], inline=True, margin=(4, 0),
-                                        options={says: name for name, says in listed("measure.loose").items()},
-                                        )  # fmt: skip
+        self.loose = Checks(say("measure.loose_label"), margin=(4, 0),
+                            options={says: name for name, says in listed("measure.loose").items()})  # fmt: skip
         self.loose.param.watch(lambda event: self._draw(), "value")
-        self.start = pmui.Button(label=say("measure.fit"), disabled=True, **BUTTON | {"variant": "contained"})
-        self.cancel = pmui.Button(label=say("measure.cancel"), disabled=True, **BUTTON)
-        on_click(self.start, self.compute)
-        on_click(self.cancel, lambda event: self._run and self._run.stop())
-        self.leave = pmui.Button(label=say("measure.leave"), visible=False, **BUTTON)
-        on_click(self.leave, self._leave)
-        self.take_home = pmui.Button(label=say("measure.take_home"), disabled=True, **BUTTON)
-        on_click(self.take_home, lambda event: self.home.view.param.update(visible=not self.home.view.visible))
+        self.start = Button(say("measure.fit"), self.compute, disabled=True)
+        self.cancel = Button(say("measure.cancel"), lambda: self._run and self._run.stop(), disabled=True)
+        self.leave = Button(say("measure.leave"), self._leave, visible=False)
+        self.take_home = Button(say("measure.take_home"), disabled=True)
+        self.take_home.on_click(lambda: self.home.view.param.update(visible=not self.home.view.visible))
         self.recipes = recipes(self._runs)
 
     @property
     def view(self):
         """The figures and the interpreted table; beside them the top, the results, and the controls."""
-        examples = [pmui.Button(label=says, **BUTTON) for says in listed("measure.examples").values()]
-        for button, name in zip(examples, EXAMPLES, strict=True):
-            on_click(button, lambda event, name=name: self.take_example(name))
+        examples = [Button(says, partial(self.take_example, name), kind="link")
+                    for name, says in zip(EXAMPLES, listed("measure.examples").values(), strict=True)]  # fmt: skip
         if self.filmed.film:
-            self.home.in_link.value = True
+            self.home.in_link.value = ["link"]
             self.take(unpacked(self.filmed.film), link=self.filmed.film)
         if self._table is None:
             wrong = self.said.object
@@ -157,7 +152,7 @@ class Measure:
         """Loads a table, bytes or text, in place of all that came of the one before. If it cannot be read, that one
         stays, and it is said that it does. name: of its file; link: what the page's link has of it already."""
         try:
-            film, table = opened(text), read(text)
+            film, table = opened(text), read(text, name)
         except MeasuredError as error:
             self._not_taken(error, each)
             return
@@ -227,7 +222,7 @@ class Measure:
         longer = note(say("measure.longer", long=last - first, most=LONGEST)) if last - first > LONGEST else ""
         self._notes = note(notes_words(table.notes, self._thinned)) + thinned + longer
         start, end = part or (first, min(last, first + LONGEST))
-        self.part.param.update(visible=True, start=first, end=last, value=(max(start, first), min(end, last)),
+        self.part.param.update(visible=True, start=first, end=last, value=[max(start, first), min(end, last)],
                                step=min(last - first, LONGEST) / 400 or 0.01)  # fmt: skip
         self._begin()
         return not self.start.disabled
@@ -241,7 +236,7 @@ class Measure:
         if self._data is None:
             return
         start = min(max(start, self.part.start), self.part.end)
-        self.part.value = (start, max(self.part.value[1], start))
+        self.part.value = [start, max(self.part.value[1], start)]
         self._begin()
 
     # ---- the data without a fit ----
@@ -297,7 +292,7 @@ class Measure:
 
     # ---- the fit ----
 
-    def compute(self, event=None):
+    def compute(self):
         """Computes both fits in a thread, or takes those of a saved film."""
         if self._data is None:
             return
@@ -332,7 +327,7 @@ class Measure:
         data = self._data.between(*self._part)
         self.home.show(self._film(), data, result.fits, self._loose, self._part, says, result.kept)
 
-    def _leave(self, event):
+    def _leave(self):
         """Leaves out the values that are far off the fit, and fits the others."""
         if self._found:
             data, far = self._found.motion.data, self._found.better.far

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from app.model.colours import ON_LIGHT
+from app.model.colours import COLOURS
 from app.tabs.measure.figures import size_of
 from app.text import say, spoken, written
 
@@ -87,7 +87,7 @@ def _picture(name, data, fit):
                    f'<circle cx="{a:.1f}" cy="{c:.1f}" r="1.4"/>'
                    for a, b, c, low, high in zip(x, axes.y(y), middle - left * one, axes.y(y - error),
                                                  axes.y(y + error), strict=True))  # fmt: skip
-    colour = ON_LIGHT["omega"] if name in ("spin", "precession") else INK
+    colour = COLOURS["omega"] if name in ("spin", "precession") else INK
     curve = f'<polyline points="{line}" fill="none" stroke-width="2" stroke="{colour}"/>'
     foot = HEIGHT + REST + 14
     parts = axes.lines + band + _line(middle, "0") + curve + dots + axes.foot(foot)

@@ -4,7 +4,7 @@ import html
 
 import numpy as np
 
-from app.model.measured.fit import verdict
+from app.model.measured.fit import WORSE, verdict
 from app.model.measured.table import line_in_file
 from app.text import listed, say, written
 from app.widgets.cards import note
@@ -52,8 +52,10 @@ def found_words(rolling, sliding, kept):
     other = {"rolled": sliding, "slipped": rolling}.get(found)
     why = "out" if other is not None and other.refused else "why"
     start = say(f"measure.start.{'push' if 'tilt_rate' in sliding.model.free else 'still'}")
-    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.{why}', start=start)}</p>"
-            + kept_words(kept))  # fmt: skip
+    told = [say(f"measure.found.{found}.{why}", start=start)]
+    told += [say("measure.gave_up", name=say(f"measure.models.{fit.model.name}"), times=WORSE)
+             for fit in (rolling, sliding) if fit.given_up]  # fmt: skip
+    return f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{' '.join(told)}</p>" + kept_words(kept)
 
 
 def far_words(fit, data):
@@ -158,7 +160,7 @@ def models_table(rolling, sliding):
 
 def _state(fit):
     if not fit.sure:
-        return "unsure"
+        return "given_up" if fit.given_up else "unsure"
     return "refused" if fit.refused else "stands"
 
 

@@ -1,7 +1,8 @@
 // A group of number controls and choices, in the order in which Python lists them. One request at a time is on its way.
 import { followLook } from "./look.js";
 import { Control } from "./number.js";
-import { forFingers, numbers, segments, shared } from "./style.js";
+import { Picks } from "./picks.js";
+import { dock, forFingers, numbers, segments, shared } from "./style.js";
 import { ask } from "../data.js";
 import { Asking } from "../lab/asking.js";
 import { Choice, part } from "../lab/parts.js";
@@ -9,8 +10,8 @@ import { Choice, part } from "../lab/parts.js";
 const style = `${shared}${numbers}${segments}
 .frame, .frame[data-look=dark] { --ground: var(--card, #fff); }
 .group { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 220px), 1fr)); gap: 8px 24px; align-items: start; }
-.group .titled, .group > .small, .group > .choice { grid-column: 1 / -1; }
-.group > .choice { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 8px; }
+.group :is(.titled, .choice), .group > .small { grid-column: 1 / -1; } .group > .dock { display: contents; }
+.group .choice { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 8px; }
 .ctl .unit { min-width: 0; } .ctl .unit:empty { display: none; } .ctl label[title], [title] { cursor: help; } .ctl .small { min-height: calc(1.45em * var(--lines, 0)); }
 i, sub, sup { font-family: Georgia, serif; } sub, sup { font-size: .75em; line-height: 0; }
 .bad input[type=range] { opacity: .38; } .bad .small { display: none; }
@@ -19,13 +20,17 @@ i, sub, sup { font-family: Georgia, serif; } sub, sup { font-size: .75em; line-h
 .ticks span:first-child { transform: translateX(-10px); }
 .ticks span::before { content: ""; position: absolute; left: 50%; top: 0; height: 5px; border-left: 1px solid; } .ticks span:first-child::before { left: 10px; }
 @media (max-width: 999px) { input { scroll-margin: calc(82px * var(--type, 1) + 24px + min(50vh, 400px)) 0 72px; } } /* between stage and tabs */
-@media (max-width: 700px) { ${forFingers} .seg button { min-height: 44px; } .link { min-height: 44px; } }
+@media (max-width: 700px) {
+  :host(.docked), .docked, .docked .group { display: contents; } .docked .group > * { margin: 4px 12px; } .docked .group > .dock { display: block; margin: 0; padding-inline: 0; z-index: 3; }
+  .docked .dock .below { display: none; } ${dock}
+  ${forFingers} .seg button { min-height: 44px; } .link { min-height: 44px; } }
 `;
 
 class Group {
   /** @param {Rendering<NumberControlsModel>} rendering */
   constructor({ model, el }) {
     this.model = model;
+    this.around = [/** @type {ShadowRoot} */ (el.getRootNode()).host, el];
     this.last = ""; // the input that was asked for last
     this.asking = new Asking((count, name, [wish, typed]) => ask(model, [count, name, wish, typed]));
     this.place = part("div", { class: "group" });
@@ -49,12 +54,24 @@ class Group {
     this.choices = new Map();
     /** @type {Map<string, HTMLElement>} */
     this.parts = new Map();
-    this.place.replaceChildren(...JSON.parse(this.model.parts).map((given) => {
+    this.picks = undefined;
+    this.place.replaceChildren(...this.make(JSON.parse(this.model.parts)));
+    for (const each of [...this.around, this.frame]) each.classList.toggle("docked", Boolean(this.picks));
+  };
+
+  make(parts) {
+    return parts.map((given) => {
       const made = this[given.kind](given);
       this.parts.set(given.name ?? given.choice?.name, made);
       return made;
-    }));
-  };
+    });
+  }
+
+  dock({ label, parts }) {
+    const made = this.make(parts);
+    this.picks = new Picks([...this.controls.values()], label);
+    return part("div", { class: "dock" }, this.picks.element, ...made);
+  }
 
   heading({ text, choice }) {
     return part("div", { class: "titled" }, part("h2", {}, text), ...(choice ? [this.buttons(choice)] : []));
@@ -98,6 +115,7 @@ class Group {
       control.show(state, this.isAhead(name));
       control.note(state.notes[name] ?? "");
     }
+    this.picks?.show();
   };
 
   // Whether a hand has moved it since the last answer.

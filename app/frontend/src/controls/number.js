@@ -1,5 +1,6 @@
 // The number control: a slider, a field for a number, and below them an error message, marks and remarks, or how runs end.
 import { fill, local } from "../data.js";
+import { explain } from "./wrong.js";
 import { part, read, say, written } from "../lab/parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
@@ -127,21 +128,17 @@ export class Control {
     }
     this.number.setAttribute("aria-invalid", String(Boolean(message)));
     this.element.classList.toggle("bad", Boolean(message));
-    this.wrong.hidden = !message;
-    this.wrong.replaceChildren(...(message
-      ? [part("b", { class: "mark", "aria-hidden": "true" }, "!"), this.why(message, state.nearest[this.name], kept, own)] : []));
+    explain(this.wrong, message, message ? this.ways(state.nearest[this.name], kept, own) : [], Boolean(this.said.html));
   }
 
-  // The message with its first sentence in bold, and a button for each remedy.
-  /** @param {string} message @param {number | undefined} nearest the nearest allowed value @param {number} kept the last valid one @param {number} [own] that of the field */
-  why(message, nearest, kept, own = kept) {
-    const [first, ...more] = message.split(/(?<=[.]) /), unit = `${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}`;
-    const way = (says, text, take) => part("button", { type: "button", class: "link", onclick: take }, say(this.texts, says, { value: `${text}${unit}` }));
-    const bold = part("b", {}, first), rest = part("span", {}, ` ${more.join(" ")} `);
-    if (this.said.html) [bold.innerHTML, rest.innerHTML] = [first, ` ${more.join(" ")} `];
-    return part("span", {}, bold, rest,
-      ...(nearest === undefined ? [] : [way(this.texts.take, this.typed(nearest), () => this.ask(this.name, nearest, true)), " "]),
-      way(this.texts.back, this.print(own), () => this.ask(this.name, kept)));
+  // The ways out of an error.
+  /** @param {number | undefined} nearest the nearest allowed value @param {number} kept the last valid one @param {number} [own] that of the field @returns {[string, () => void][]} */
+  ways(nearest, kept, own = kept) {
+    const unit = `${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}`;
+    const says = (text, value) => say(this.texts, text, { value: `${value}${unit}` });
+    /** @type {[string, () => void]} */
+    const back = [says(this.texts.back, this.print(own)), () => this.ask(this.name, kept)];
+    return nearest === undefined ? [back] : [[says(this.texts.take, this.typed(nearest)), () => this.ask(this.name, nearest, true)], back];
   }
 
   // A remark on the value, plain text unless its name is HTML.

@@ -1,12 +1,12 @@
 // The style of everything that a hand sets: tokens for light, dark and large; buttons and choices; number controls. Four
 // font sizes, a grid of 8 px, one blue for what is selected, one colour for each quantity.
-import { onDark, onLight } from "../colours.js";
+import { colours, onDark } from "../colours.js";
 import { endsOnDark, endsOnLight } from "../ends.js";
 
 const tokens = `
 .frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
   --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
-  --accent: ${onLight.accent}; --q-spin: ${onLight.omega}; --q-energy: ${onLight.energy}; --q-energy-wash: ${onLight.energy_wash};
+  --accent: ${colours.accent}; --q-spin: ${colours.omega}; --q-energy: ${colours.energy}; --q-energy-wash: ${colours.energy_wash};
   ${endsOnLight} --shape: #55606c;
   container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
   -webkit-font-smoothing: antialiased; }
@@ -53,6 +53,7 @@ polyline, .rest, .past { fill: none; stroke-linejoin: round; }
 `;
 
 export const numbers = `
+.picks { display: none; }
 .ctl { display: grid; grid-template-columns: 1fr auto; align-items: baseline; column-gap: 8px; }
 .ctl label { font-weight: 600; }
 .num { width: 72px; border: 0; border-bottom: 1px solid var(--line-2); background: none; padding: 0; height: 24px; border-radius: 0; text-align: right; font-variant-numeric: tabular-nums; }
@@ -72,6 +73,17 @@ export const numbers = `
 // A choice with buttons on a ground of its own.
 export const segments = `.seg { flex-wrap: wrap; background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
 `;
+
+// What stands at the foot of a narrow page: one number control at a time, and a button for each.
+export const dock = `.dock { position: sticky; bottom: 0; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; }
+  .dock .picks { display: flex; gap: 4px; margin-left: -8px; }
+  .picks button { padding: 0 8px; min-height: 44px; line-height: 1.15; text-align: left; color: var(--ink-2); font-size: var(--t-s); border-radius: 0; }
+  .picks b { display: block; font-size: var(--t-m); color: var(--ink); font-variant-numeric: tabular-nums; white-space: nowrap; }
+  .picks [aria-pressed=true], .picks [aria-pressed=true] b { color: var(--accent); font-weight: 600; }
+  .picks [aria-pressed=true] { box-shadow: inset 0 -3px 0 var(--accent); }
+  .dock .ctl:not(.picked), .dock label { display: none; }
+  .dock .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+  .dock .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }`;
 
 // A thumb for a finger, where the page is narrow.
 export const forFingers = `.ctl input[type=range] { height: 44px; margin: -2px 0 -10px; }

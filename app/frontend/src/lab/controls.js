@@ -2,6 +2,7 @@
 // the top itself are in folds.
 import { Body } from "./body.js";
 import { Control } from "../controls/number.js";
+import { Picks } from "../controls/picks.js";
 import { Launch } from "./launch.js";
 import { Law } from "./law.js";
 import { part, say } from "./parts.js";
@@ -20,21 +21,11 @@ export class Controls {
       spin, launch: () => ask("spin", turns.value), stop: () => ask("stop", ""),
       strength: (share) => say(texts, texts.strength, { spin: [turns.putShare(share), 0] }),
     });
-    this.picks = part("div", { class: "picks", role: "group", "aria-label": texts.hand }, ...this.parts.map(({ said, name }) =>
-      part("button", { type: "button", onclick: () => this.pick(name) }, said.name, part("b"))));
+    this.picks = new Picks(this.parts, texts.hand);
     // on a phone these controls are at the foot of the window
-    const dock = part("div", { class: "dock" }, part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.launch.element),
+    const dock = part("div", { class: "dock" }, part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks.element, this.launch.element),
       ...this.parts.map(({ element }) => element));
     this.element = part("section", { class: "controls", "aria-label": texts.hand }, dock, ...this.folds.map(({ element }) => element));
-    this.pick("spin");
-  }
-
-  // On a phone, shows one control at a time.
-  pick(name) {
-    this.parts.forEach((control, i) => {
-      control.element.classList.toggle("picked", control.name === name);
-      this.picks.children[i].setAttribute("aria-pressed", String(control.name === name));
-    });
   }
 
   /** @param {any} scene @param {boolean} ahead */
@@ -47,13 +38,10 @@ export class Controls {
     for (const [i, control] of this.parts.entries()) {
       // ice has no friction to set, and nothing slips on the rough table; three tables share one slider
       const idle = table === "three" ? i > 0 : control.name === "mu" && (table === "rough" || table === "ice");
-      control.element.hidden = this.picks.children[i].hidden = idle;
+      control.element.hidden = idle;
       control.show(state, ahead);
-      const { unit } = control.said;
-      this.picks.children[i].lastChild.textContent = `${control.print(state.values[control.name])}${unit === "°" ? "" : " "}${unit}`;
-      if (state.messages[control.name]) this.pick(control.name);
     }
-    if (this.parts.some(({ element }) => element.hidden && element.classList.contains("picked"))) this.pick("spin");
+    this.picks.show();
     if (table === "rough" || table === "ice") this.parts[0].below.replaceChildren();
     else this.parts[0].showEnds(state.ends);
     const was = before?.state.of.spin[0];

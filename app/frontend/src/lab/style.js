@@ -1,5 +1,5 @@
 // The Lab's style. The layout depends on the width of the Lab, not of the window.
-import { forFingers, numbers, shared } from "../controls/style.js";
+import { dock, forFingers, numbers, shared } from "../controls/style.js";
 import { endRules } from "../ends.js";
 
 // The layout: the top and the answer side by side, the bar that controls the time directly below the top.
@@ -36,7 +36,7 @@ const places = `
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
   .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link, .say .small .link { min-height: var(--touch); }
-  .dock { order: 1; position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
+  .dock { order: 1; z-index: 3; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
   :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
 }
@@ -133,7 +133,6 @@ thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody
 
 const controls = `
 :is(.controls, .dock) { display: grid; gap: 12px; align-content: start; } .controls .titled { min-height: 44px; }
-.picks { display: none; }
 .ends { position: relative; height: 10px; margin-top: -2px; } .ends.none { margin: -2px 10px 0; background: var(--end-upright); }
 .end { position: absolute; top: 0; bottom: 0; } ${endRules}
 .end.mixed { background: repeating-linear-gradient(45deg, var(--end-stands) 0 3px, var(--end-leans) 3px 6px); }
@@ -148,18 +147,13 @@ const controls = `
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
 .words b { position: absolute; transform: translateX(-50%); color: var(--ink); font-weight: 400; }
 @container (max-width: 700px) {
-  .controls { display: contents; } .dock { gap: 0; } .controls h2 { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
-  .picks { display: flex; gap: 4px; margin-left: -8px; } .controls .titled { align-items: center; }
-  .picks button { padding: 0 8px; min-height: 44px; line-height: 1.15; text-align: left; color: var(--ink-2); font-size: var(--t-s); border-radius: 0; }
-  .picks b { display: block; font-size: var(--t-m); color: var(--ink); font-variant-numeric: tabular-nums; white-space: nowrap; }
-  .picks [aria-pressed=true], .picks [aria-pressed=true] b { color: var(--accent); font-weight: 600; }
-  .picks [aria-pressed=true] { box-shadow: inset 0 -3px 0 var(--accent); }
+  .controls { display: contents; } .dock { gap: 0; } .controls .titled { align-items: center; } .controls h2 { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
   .chip { top: 60px; left: 8px; max-width: calc(100% - 118px); } .chip span { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; } .chip button { flex: none; height: 44px; }
   .pill { max-width: calc(100% - 184px); line-height: 1.2; }
+  .shows { left: 16px; right: auto; bottom: 48px; max-height: calc(100% - 170px); } .shows summary { min-height: 44px; padding: 12px; }
   .wait { gap: 6px; } .wait progress { width: 32px; } .wait .small { white-space: nowrap; } .wait .outline { min-height: 44px; padding: 0 10px; }
-  .primary { min-height: 44px; } .dock .ctl:not(.picked) { display: none; }
-  .dock label { display: none; } .dock .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
-  .dock .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }
+  .primary { min-height: 44px; }
+  ${dock}
   ${forFingers}
 }
 `;

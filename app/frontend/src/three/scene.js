@@ -1,12 +1,12 @@
 // The colours of the 3-D pictures: those of objects, on a light page and on a dark one. Text takes its colours from CSS
 // variables, which look.js sets.
-import { onDark, onLight } from "../colours.js";
+import { colours, onDark } from "../colours.js";
 
 export const scenes = {
   light: {
     sky: 0xf1efea, edge: 0x5a3312, table: 0xf6f1e9, grid: 0xd6d5d1, strong: 0xa9b0b8, ink: 0x1d2733, shade: 0x2a2118,
     ground: 0xf7f8fa, lines: 0x6b7a88, walls: 0.68, edges: 0.3,
-    force: onLight.normal, omega: onLight.omega, momentum: onLight.momentum,
+    force: colours.normal, omega: colours.omega, momentum: colours.momentum,
   },
   dark: {
     sky: 0x191f25, edge: 0xf0cfa3, table: 0x2b323a, grid: 0x3d4751, strong: 0x66727e, ink: 0xeef2f6, shade: 0x000000,

@@ -7,7 +7,6 @@ import { colours } from "../colours.js";
 import { niceAbove } from "../data.js";
 import { centreOf, emptyPose } from "../motion/frames.js";
 import { Labels } from "./labels.js";
-import { colourOf, ROLLS } from "../regimes.js";
 import { Ribbon, Thread } from "./ribbon.js";
 import { followLook } from "./scene.js";
 import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
@@ -106,6 +105,7 @@ export class TopScene {
     for (const { material } of [this.comPath.whole, this.comPath.passed, this.centre]) material.color.set(look.ink);
     this.shade.material.color.set(look.shade);
     this.pointedAt.colour = look.ink;
+    for (const name of ["force", "omega", "momentum"]) this.arrows[name].colour = look[name];
     for (const name of Object.keys(LONGEST)) this.tips[name].element.style.color = look[name];
     this.stage.invalidate();
   }
@@ -168,7 +168,6 @@ export class TopScene {
     this.sun.target.position.copy(stands);
     this.sun.position.set(stands.x - 3.2 * size, stands.y - 3.4 * size, 8.2 * size);
     this.table.position.set(Math.round(stands.x / lattice) * lattice, Math.round(stands.y / lattice) * lattice, 0);
-    this.arrows.force.colour = moment.regime === ROLLS ? colours.normal : colourOf(moment.regime);
   }
 
   point(name, from, vector, visible) {

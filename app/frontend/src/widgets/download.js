@@ -1,12 +1,16 @@
+import { saveButton } from "../controls/button.js";
 import { bytesOf } from "../data.js";
-import { addButton, save } from "./saving.js";
+import { save } from "./saving.js";
 
 /** @param {Rendering<DownloadModel>} rendering */
-export function renderDownload({ model, el }) {
-  const button = addButton(el, model.label);
-  button.onclick = () => (model.clicks += 1);
-  const show = () => button.setAttribute("aria-busy", String(model.making));
-  model.on("making", show);
+export function renderDownload(rendering) {
+  const { model } = rendering, button = saveButton(rendering, model.label);
+  button.onclick = () => !model.disabled && (model.clicks += 1);
+  const show = () => {
+    button.setAttribute("aria-busy", String(model.making));
+    button.setAttribute("aria-disabled", String(model.disabled));
+  };
+  for (const name of ["making", "disabled"]) model.on(name, show);
   show();
   model.on("file", () => save(new Blob([bytesOf(model.file[1])]), model.file[2]));
 }

@@ -6,7 +6,6 @@ import { guideStyle } from "../style.js";
 import { Tour, tourFrame } from "./tour.js";
 
 const SAY_MS = 400; // words are spoken once they have not changed for this long
-const RENAME_MS = 100; // by then the library has drawn what was opened
 const WRITING = "input, textarea, select, button, a[href], summary, [contenteditable=true], [role=slider], [role=tab], [role=option]";
 const TYPING = "input:not([type=range], [type=checkbox]), textarea, [contenteditable=true]";
 const KEYS = { " ": { toggle: true }, ArrowLeft: { step: -1 }, ArrowRight: { step: 1 } };
@@ -14,21 +13,6 @@ const KEYS = { " ": { toggle: true }, ArrowLeft: { step: -1 }, ArrowRight: { ste
 const listOf = (texts) => `<dialog class="list" aria-labelledby="title"><h2 id="title">${texts.keys}</h2>
   <table>${texts.list.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
   <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>`;
-
-// The widget library names its buttons in English, and does so again whenever a drawer or dialog opens or closes.
-function nameButtons(library) {
-  const rename = () => {
-    for (const [name, ours] of Object.entries(library)) {
-      const button = find(`button[aria-label="${name}"]`);
-      for (const as of ["aria-label", "title"]) button?.setAttribute(as, ours);
-    }
-  };
-  const onOpen = ({ attr = "" }) => attr === "open" && setTimeout(rename, RENAME_MS);
-  const doc = Bokeh.documents[0];
-  doc.on_change(onOpen);
-  setTimeout(rename, RENAME_MS);
-  return () => doc.remove_on_change(onOpen);
-}
 
 // For screen readers: what the rolling top is doing, while it is shown. The Lab has its own words.
 /** @param {GuideModel} model @param {AbortSignal} signal */
@@ -94,7 +78,7 @@ export function renderGuide({ model }) {
   over.innerHTML = `<style>${guideStyle}</style>${listOf(texts)}${tourFrame(texts)}`;
   speak(model, signal);
   document.body.append(layer);
-  const forgetNames = nameButtons(texts.library), tour = new Tour(texts, over, signal);
+  const tour = new Tour(texts, over, signal);
   /** @type {(root: ParentNode, selector: string) => any} */
   const part = (root, selector) => root.querySelector(selector);
   const list = part(over, ".list");
@@ -117,7 +101,6 @@ export function renderGuide({ model }) {
   offer();
   model.on("remove", () => {
     listening.abort();
-    forgetNames();
     layer.remove();
   });
 }

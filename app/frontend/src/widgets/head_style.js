@@ -1,10 +1,10 @@
 // The style of the head: one row of 48 px in the colour of the background; what is selected is blue.
-import { onDark, onLight } from "../colours.js";
+import { colours, onDark } from "../colours.js";
 
 export const headStyle = `
 :host { position: sticky; top: 0; z-index: 20; } .all { width: 100%; }
 * { box-sizing: border-box; } [hidden] { display: none !important; }
-.row, .rooms { --accent: ${onLight.accent}; --ground: var(--mui-palette-background-default, #fff); color: var(--ink, #22303c); background: var(--ground);
+.row, .rooms { --accent: ${colours.accent}; --ground: var(--card, #fff); color: var(--ink, #22303c); background: var(--ground);
   font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); }
 .row[data-look=dark], .rooms[data-look=dark] { --accent: ${onDark.accent}; }
 .row { display: flex; align-items: center; gap: 16px; height: calc(48px * var(--type, 1)); padding: 0 24px; border-bottom: 1px solid var(--rule, #d8dce0); }

@@ -1,14 +1,16 @@
 // The style sheet of the derivation's lines.
+import { colours } from "../colours.js";
+
 export const style = `
 .lines { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #22303c);
-  --link: color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c)) }
+  --link: color-mix(in srgb, ${colours.accent} 60%, var(--ink, #22303c)) }
 .line { border-top: 1px solid var(--rule, #e7ebef); padding: 7px 0 }
 .line > .head { display: flex; gap: 8px; align-items: baseline; }
 .eq { overflow-x: auto; overflow-y: hidden; font-size: 1.07em; padding: 3px 0; min-width: 0 }
 math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math }
 button { font: inherit; background: none; border: 1px solid #8a96a3; border-radius: 6px; color: var(--link);
   padding: 1px 7px; cursor: pointer; min-width: 46px }
-button[aria-expanded=true] { background: #0b5cad; color: white }
+button[aria-expanded=true] { background: ${colours.accent}; color: white }
 .sides { color: var(--faint, #5b6875); font-size: 0.9em; font-variant-numeric: tabular-nums;
   overflow-wrap: anywhere }
 .sides b { font-weight: 600; color: var(--ink, #22303c) }

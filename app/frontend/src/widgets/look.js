@@ -1,4 +1,4 @@
-// The look of the page: light or dark, and large for a projector. Text and widgets follow through CSS variables; a
+// The look of the page: light or dark, and large for a projector. What is HTML follows through CSS variables; a
 // Bokeh figure is drawn on a canvas, so its colours and sizes are replaced here.
 import { colours, onDark } from "../colours.js";
 import { coalesce } from "../data.js";
@@ -10,9 +10,11 @@ const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff", "#d9b98c", colou
 const looks = {
   light: INKS,
   "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff", "#d9b98c", colours.accent],
-  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23", "#75592f", onDark.accent],
-  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000", "#75592f", onDark.accent],
+  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#0e1318", "#75592f", onDark.accent],
+  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#0e1318", "#75592f", onDark.accent],
 };
+// of a quantity: its colour on a light page, and that on a dark one
+const DARK = new Map(Object.entries(onDark).map(([name, dark]) => [colours[name].toLowerCase(), dark]));
 const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2", "dark large": "#e3e8ed" };
 
 const isColour = (property) => property.endsWith("_color");
@@ -23,26 +25,18 @@ function exchange(value, as) {
   return typeof value === "string" ? as(value) : value;
 }
 
-// Sets CSS variables of the document's root, which the page, the pictures and the widgets use.
+// Sets CSS variables of the document's root.
 /** @param {LookModel} model @param {string} name that of the look @param {boolean} dark */
 function setVariables(model, name, dark) {
   const [ink, , line, paper] = looks[name], { style, dataset } = document.documentElement;
+  const quantities = dark ? onDark : colours;
   const values = {
+    ...Object.fromEntries(Object.keys(onDark).map((each) => [`--${each}`, quantities[each]])),
     "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper,
-    "--focus": (dark ? onDark : colours).chosen, "--link": dark ? "#8ec7f5" : "#0b5cad",
-    "--accent": (dark ? onDark : colours).accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
+    "--focus": quantities.chosen, "--link": quantities.accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
-  for (const [property, value] of Object.entries(model.on_dark)) {
-    // what the widgets use, and what the page itself has
-    for (const prefix of ["--look-", "--mui-palette-"]) {
-      if (dark) style.setProperty(prefix + property, value);
-      else style.removeProperty(prefix + property);
-    }
-  }
   style.colorScheme = dark ? "dark" : "light"; // for what the browser draws itself
-  style.setProperty("--look-scheme", style.colorScheme);
-  style.setProperty("--panel-on-background-color", ink);
   style.fontSize = model.large ? `${100 * LARGER}%` : "";
   dataset.look = name;
   window.dispatchEvent(new CustomEvent("tippe:look"));
@@ -70,15 +64,10 @@ class Look {
   }
 
   dress(part) {
-    const { name, model: { large } } = this, [text, faint, line] = looks[name], px = `${12 * (large ? LARGER : 1)}px`;
-    const ink = (value) => looks[name][INKS.indexOf(value.toLowerCase())] ?? value;
+    const { name, model: { large } } = this;
+    const ink = (value) => looks[name][INKS.indexOf(value.toLowerCase())] ?? (name.startsWith("dark") ? DARK.get(value.toLowerCase()) : undefined) ?? value;
     const size = (value) => (large ? value.replace(/^[\d.]+(?=px)/, (now) => String(LARGER * now)) : value);
-    let wanted = Object.entries(this.own(part)).map(([property, value]) => [property, exchange(value, isColour(property) ? ink : size)]);
-    // The theme of the widget library overwrites these, whatever the figure was created with.
-    if (part.type.endsWith("Axis")) {
-      wanted = [["major_label_text_color", text], ["major_label_text_font_size", px], ["axis_line_color", faint], ["major_tick_line_color", faint],
-        ["axis_label_text_color", text], ["axis_label_text_font_size", px]];
-    } else if (part.type === "Grid") wanted = [["grid_line_color", line]];
+    const wanted = Object.entries(this.own(part)).map(([property, value]) => [property, exchange(value, isColour(property) ? ink : size)]);
     if (wanted.length) part.setv(Object.fromEntries(wanted), { sync: false });
   }
 
@@ -100,10 +89,9 @@ class Look {
     this.dressAll();
   };
 
-  // Whether a change of the page needs a new pass: new models have come, because a tab is created when it is first
-  // opened, or the widget library's dark theme has set its own colours for figures, which it does late.
-  isUndone(attr) {
-    return this.name !== "light" && (this.doc.all_models.size !== this.seen || /(_color|font_size)$/.test(attr));
+  // Whether new models have come, because a tab is created when it is first opened.
+  get isUndone() {
+    return this.name !== "light" && this.doc.all_models.size !== this.seen;
   }
 }
 
@@ -111,7 +99,7 @@ class Look {
 export function renderLook({ model }) {
   document.documentElement.lang = model.texts.language;
   const look = new Look(model), again = coalesce(() => look.dressAll());
-  const onChange = ({ attr = "" }) => look.isUndone(attr) && again();
+  const onChange = () => look.isUndone && again();
   look.doc.on_change(onChange);
   for (const name of ["dark", "large"]) model.on(name, look.update);
   look.system.addEventListener("change", look.update);

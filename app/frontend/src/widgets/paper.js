@@ -1,9 +1,10 @@
 // Opens a page to print in a new window.
-import { addButton } from "./saving.js";
+import { saveButton } from "../controls/button.js";
 
 /** @param {Rendering<PaperModel>} rendering */
-export function renderPaper({ model, el }) {
-  addButton(el, model.label).onclick = () => {
+export function renderPaper(rendering) {
+  const { model } = rendering;
+  saveButton(rendering, model.label).onclick = () => {
     const paper = window.open("", "_blank");
     if (!paper) return;
     paper.document.open(); // this also removes old listeners

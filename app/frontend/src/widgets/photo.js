@@ -1,8 +1,9 @@
 // Saves a picture of the top as shown, with its caption below.
 import { colours } from "../colours.js";
+import { saveButton } from "../controls/button.js";
 import { penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
-import { addButton, save } from "./saving.js";
+import { save } from "./saving.js";
 
 const LINE = 1.5; // line height of a caption, in units of the font size
 
@@ -29,8 +30,8 @@ function withCaption(pictures, caption) {
 }
 
 /** @param {Rendering<PhotoModel>} rendering */
-export function renderPhoto({ model, el }) {
-  const button = addButton(el, "PNG"), none = document.createElement("span");
+export function renderPhoto(rendering) {
+  const { model } = rendering, button = saveButton(rendering, "PNG"), none = document.createElement("span");
   none.setAttribute("role", "status");
   button.before(none);
   button.onclick = () => {

@@ -2,7 +2,7 @@
 
 const FRAME = (parts) => `<svg viewBox="0 0 132 92" width="132" height="92" aria-hidden="true" fill="none" stroke-linecap="round">${parts}</svg>`;
 const pale = (d) => `<path d="${d}" stroke="var(--faint, #8a96a3)" stroke-width="1.5"/>`;
-const ink = (d) => `<path d="${d}" stroke="var(--link, #0b5cad)" stroke-width="2.5"/>`;
+const ink = (d) => `<path d="${d}" stroke="var(--link)" stroke-width="2.5"/>`;
 const letter = (x, y, text) => `<text x="${x}" y="${y}" font-size="13" font-style="italic" fill="var(--ink, #22303c)">${text}</text>`;
 const dot = (x, y) => `<circle cx="${x}" cy="${y}" r="2.5" fill="var(--ink, #22303c)"/>`;
 // the head of an arrow that ends at (x, y), along the unit vector (dx, dy)
@@ -11,7 +11,7 @@ const head = (x, y, dx, dy) => `M${x - 7 * dx - 4 * dy} ${y - 7 * dy + 4 * dx}L$
 // O at (60, 48), 30 px above the contact C at (60, 78); axis 3 leans 30 degrees to the right, G is below O on it
 const table = pale("M10 78H122"), ball = pale("M30 48a30 30 0 1 0 60 0a30 30 0 1 0 -60 0");
 const axis = pale("M50 65.3L82 10"), top = table + ball + axis, upright = pale("M60 78V6");
-const around = (x, y, rx, tilt) => `<path d="M${x - rx} ${y}a${rx} 6 0 1 0 ${2 * rx} 0" transform="rotate(${tilt} ${x} ${y})" stroke="var(--link, #0b5cad)" stroke-width="2.5"/>`;
+const around = (x, y, rx, tilt) => `<path d="M${x - rx} ${y}a${rx} 6 0 1 0 ${2 * rx} 0" transform="rotate(${tilt} ${x} ${y})" stroke="var(--link)" stroke-width="2.5"/>`;
 const spin = around(76, 20, 13, 30) + ink(head(88, 26, 0.2, -1)), cone = ink("M60 78L44 44M60 78L76 44M44 44H76");
 const graph = pale("M20 80V12M20 80H120");
 

@@ -1,0 +1,140 @@
+"""What a hand sets or presses, beside choices and number controls: buttons, entries, menus, checks, a stretch with two
+ends, a file of text, and a fold. Each is drawn by native elements of the browser, in the style of the Lab."""
+
+import math
+
+import panel as pn
+import param
+
+from app.borrowed import at_once
+from app.bundle import Bundled
+from app.state import asked
+
+MOST_CLICKS = 10  # in one message
+
+
+class Part(Bundled):
+    """What these have in common."""
+
+    label = param.String(default="", doc="Its name, in words.")
+    SENDS = ()  # what the browser sets
+
+    def __init__(self, label="", **params):
+        super().__init__(label=label, **({"margin": 0} | params))
+        at_once(self, *self.SENDS)
+
+
+class Button(Part):
+    """does: called at each click; all changes that it makes on the page are sent as one message.
+
+    The browser counts the clicks, so none is lost. One that arrives after the button was disabled does nothing.
+    """
+
+    kind = param.Selector(default="outline", objects=["primary", "outline", "link"])
+    disabled = param.Boolean(default=False)
+    clicks = param.Integer(default=0)
+    SENDS = ("clicks",)
+
+    def __init__(self, label, does=None, **params):
+        super().__init__(label, **params)
+        self._does = [] if does is None else [does]
+        self.param.watch(self._clicked, "clicks")
+
+    def on_click(self, does):
+        """From now on calls this, too."""
+        self._does.append(does)
+
+    def _clicked(self, event):
+        with pn.io.hold():
+            for _ in range(min(event.new - event.old, MOST_CLICKS)):
+                if not self.disabled:
+                    for does in self._does:
+                        does()
+
+
+class Field(Part):
+    """An entry for a short text, such as a number. refuse() shows why the browser's last text cannot be."""
+
+    value = param.String(default="")
+    shows = param.String(default="", doc="Its name as it is shown, in HTML; empty: only screen readers get the label.")
+    unit = param.String(default="", doc="Behind it.")
+    placeholder = param.String(default="", doc="Shown while it is empty.")
+    size = param.Integer(default=8, doc="Its width, in letters.")
+    wrong = param.List(default=[], doc="[why, nearest possible text or empty, text to go back to or empty].")
+    SENDS = ("value",)
+
+    def refuse(self, why="", nearest="", back=""):
+        """why: plain text; empty: nothing is wrong."""
+        self.wrong = [why, nearest, back] if why else []
+
+
+class Menu(Part):
+    """One of several is chosen, from a list that opens; what stands for each is a text or a whole number."""
+
+    options = param.Dict(default={}, doc="{words: value}.")
+    value = param.Parameter(doc="One of the values.")
+    is_beside = param.Boolean(default=False, doc="Whether the label is at its left instead of above.")
+    SENDS = ("value",)
+
+
+class Checks(Part):
+    """Any number of several."""
+
+    options = param.Dict(default={}, doc="{words: value}.")
+    value = param.List(default=[], doc="The values that are checked.")
+    SENDS = ("value",)
+
+
+class Stretch(Part):
+    """A part of a range, between two thumbs. does: called when a thumb was let go, or a number typed."""
+
+    start = param.Number(default=0.0)
+    end = param.Number(default=1.0)
+    step = param.Number(default=0.01)
+    digits = param.Integer(default=3, doc="After the decimal point.")
+    unit = param.String(default="")
+    value = param.List(default=[0.0, 1.0])
+    pulled = param.List(default=[0, 0.0, 1.0], doc="[how often so far, from, to]; the browser sets it")
+    SENDS = ("pulled",)
+
+    def __init__(self, label, does=None, **params):
+        super().__init__(label, **params)
+        self._does = does
+        self.param.watch(asked.heard(self._heard), "pulled")
+
+    def _heard(self, event):
+        _, low, high = asked.parts(event.new, *3 * [asked.number])
+        self.value = [low, high]
+        if self._does:
+            self._does()
+
+
+class TextFile(Part):
+    """A button that opens a file. take: called with its text; refuse: called if it is too large."""
+
+    accept = param.String(default="")
+    most = param.Integer(default=0, constant=True, doc="bytes")
+    sent = param.List(default=["", 0, 0], doc="[its text, how many so far, its size in bytes]")
+    SENDS = ("sent",)
+
+    def __init__(self, label, take, refuse, **params):
+        super().__init__(label, **params)
+        self._take, self._refuse = take, refuse
+        self.param.watch(asked.heard(self._heard), "sent")
+
+    def _heard(self, event):
+        text, _, size = asked.parts(event.new, asked.text, asked.number, asked.number)
+        if math.isfinite(size) and size > self.most:
+            self._refuse()
+        else:
+            self._take(text)
+
+
+class Fold(Bundled):
+    """What can be unfolded below a title."""
+
+    label = param.String(default="")
+    content = pn.viewable.Child(constant=True)
+
+    def __init__(self, label, content, **params):
+        super().__init__(label=label, content=content, **({"margin": 0, "sizing_mode": "stretch_width"} | params))
