@@ -16,7 +16,7 @@ OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")
 """Events of the story that are listed as those of its contacts."""
 MOST = 16
 SHORT = 0.1  # s: a touch or hop that is too short to be seen
-HOPS = {"lifts off", "lands", "sticks", "slips"}
+GRIPS, HOPS = {"sticks", "slips"}, {"lifts off", "lands"}
 ON = {"both": "both", "stem": "stem", "none": "air"}
 
 
@@ -63,11 +63,17 @@ def _touches(motion: TableMotion, unit: float, part: str) -> list[tuple[float, s
     for t, event in happens:
         if event == "sticks" and last_slip <= t <= grips < np.inf:
             continue
-        if series and t - series[-1][-1][0] < SHORT:
+        if series and t - series[-1][-1][0] < SHORT and _continues(series[-1], event):
             series[-1].append((t, event))
         else:
             series.append([(t, event)])
     return [(each[0][0], _word(each, part)) for each in series]
+
+
+def _continues(series: list[tuple[float, str]], event: str) -> bool:
+    """Whether an event is one more of a series: of grips, or of touches, between which it may stick and slip."""
+    of_grips = series[0][1] in GRIPS
+    return (event in GRIPS) == of_grips or (not of_grips and len(series) > 1)
 
 
 def _word(series: list[tuple[float, str]], part: str) -> str:
@@ -75,7 +81,7 @@ def _word(series: list[tuple[float, str]], part: str) -> str:
     if len(series) == 1:
         return say(f"planes.moments.events.{series[0][1]}", part=part)
     events = {event for _, event in series}
-    kind = "grips" if events <= {"sticks", "slips"} else "hops" if events <= HOPS else "rattles"
+    kind = "grips" if events <= GRIPS else "hops" if events <= GRIPS | HOPS else "rattles"
     return say(f"planes.moments.series.{kind}", part=part, end=series[-1][0])
 
 
