@@ -15,7 +15,7 @@ from app.text import listed, say
 OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")
 """Events of the story that are listed as those of its contacts."""
 MOST = 16
-SHORT = 0.1  # s: a touch or hop that is too short to be seen
+SHORT, RATTLE = 0.05, 0.1  # s: a grip, and a touch or hop, that is too short to be seen
 GRIPS, HOPS = {"sticks", "slips"}, {"lifts off", "lands"}
 ON = {"both": "both", "stem": "stem", "none": "air"}
 
@@ -63,17 +63,18 @@ def _touches(motion: TableMotion, unit: float, part: str) -> list[tuple[float, s
     for t, event in happens:
         if event == "sticks" and last_slip <= t <= grips < np.inf:
             continue
-        if series and t - series[-1][-1][0] < SHORT and _continues(series[-1], event):
+        if series and _continues(series[-1], t, event):
             series[-1].append((t, event))
         else:
             series.append([(t, event)])
     return [(each[0][0], _word(each, part)) for each in series]
 
 
-def _continues(series: list[tuple[float, str]], event: str) -> bool:
+def _continues(series: list[tuple[float, str]], t: float, event: str) -> bool:
     """Whether an event is one more of a series: of grips, or of touches, between which it may stick and slip."""
     of_grips = series[0][1] in GRIPS
-    return (event in GRIPS) == of_grips or (not of_grips and len(series) > 1)
+    belongs = (event in GRIPS) == of_grips or (not of_grips and len(series) > 1)
+    return belongs and t - series[-1][0] < (SHORT if of_grips else RATTLE)
 
 
 def _word(series: list[tuple[float, str]], part: str) -> str:
