@@ -209,6 +209,7 @@ class House:
         self.keep.add(maps.choice, usual=lambda choice: maps.usual)
         maps.choice.param.watch(lambda *events: self.keep.at_rest(), [*maps.choice.INPUTS])
         self.pacer.shows(maps.show, "rest")
+        self._at_levels(lambda explores: maps.open(not explores))
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):

@@ -106,6 +106,11 @@ class Maps:
                  for content, name in ((above, "above"), (beside, "run"), (below, "below"))]  # fmt: skip
         return pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[ROOM])
 
+    def open(self, all_of_it):
+        """Shows, or hides, what is for the level Research."""
+        for part in (self.settings.deep, self.steady.deep):
+            part.visible = all_of_it
+
     def show(self, scene):
         """Uses the top of the page's new scene, if it has changed."""
         body, self._outline = of_page(scene), scene.profile
