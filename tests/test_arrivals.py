@@ -21,7 +21,7 @@ from app import app_hooks
 from app.server import arrivals
 
 FEW = 96  # open files
-UNDER = ["sh", "-c", f'ulimit -n {FEW} && exec "$@"', "sh"]
+UNDER = f"import resource; resource.setrlimit(resource.RLIMIT_NOFILE, ({FEW}, {FEW}))"
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there, sockets are not counted with the files")
 
@@ -66,7 +66,7 @@ def test_more_connections_than_files_wait_and_come_in_when_those_before_have_gon
         inside.leave()
         return answered, silent
 
-    with served(tmp_path / "log", before=UNDER) as server:
+    with served(tmp_path / "log", code=UNDER) as server:
         answered, silent = run(crowded(server))
         assert answered == "OK"
         deaf = [greedy(server.url) for _ in range(FEW)]
