@@ -149,7 +149,7 @@ def test_the_walk_of_a_run_with_friction(walk):
 # {room: what shows scenes there, besides what shows them on every page}
 FOLLOW = {
     "lab": {"Controls.follow", "Controls.show", "Research._on_scene"}, "families": {"Tops.show", "Compare.show"},
-    "build-a-top": {"Build.show", "VerdictWords.show", "show_top"}, "learn": {"Learn.show"}, "maps": {"Maps.show"},
+    "build-a-top": {"Build.show", "Built.show"}, "learn": {"Learn.show"}, "maps": {"Maps.show"},
     "measure": {"Measure.show"},
 }  # fmt: skip
 # And what else listens to an input of the Explorer: the panel that fits the table, and where it is.

@@ -4,6 +4,7 @@ from functools import partial
 
 import panel as pn
 
+from app.model.arrival import MU, SPIN, TILT
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
 from app.model.playing import Playing, together
@@ -14,8 +15,8 @@ from app.state import opened as room
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
 from app.tabs.build.build import Build
+from app.tabs.build.built import Built
 from app.tabs.build.rocking import RockingFields
-from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
 from app.tabs.lab.lab import lab_view
@@ -27,17 +28,13 @@ from app.text import say
 from app.widgets.cards import card, flexible, later, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt, full, waits
-from app.widgets.forms import Button
 from app.widgets.pacing import Pacer
-from app.widgets.top3d import Top3D, show_top
 
 TABS = {"learn": ("learn",), "lab": (room.FIRST,), "build": ("build-a-top",), "maps": ("families", "maps"),
         "measure": ("measure",)}  # fmt: skip
 """{tab: names of its rooms in an address}, in the order of the head."""
 
 
-# Only the top that is being built, because whatever moves beside it belongs to the Lab.
-BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
 BESIDE = """
 :host { min-height: max-content } .scroll-button { display: none !important }
 @media (min-width: 1200px) {
@@ -47,10 +44,8 @@ BESIDE = """
 # The Lab stays in sight while what is beside it scrolls.
 STAYS = {"position": "var(--stays, static)", "top": "calc(48px * var(--type, 1))"}
 COLUMNS = {True: "minmax(0, 57fr) minmax(0, 43fr)", False: "minmax(0, 1fr)"}
-HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
 WHY = {"section": "lesson", "step": "arms"}  # why rubbing lifts a top
 WHY_NOT = {"section": "published"}  # why Coulomb's law alone does not
-PLAIN = ".tippe :is(.verdict, .scales, .time, .shows) { display: none !important }"
 
 
 class House:
@@ -158,25 +153,23 @@ class House:
         self._look_at(room="learn")
 
     def build(self):
-        bench = Build(self.builder, self.runs)
-        self.pacer.shows(bench.show, "rest")
-        fields = RockingFields(self.builder)
-        self._at_levels(lambda explores: setattr(fields.formula, "visible", not explores))
-        rocking = card(say("main.cards.measure"), *fields.view, height="max-content")
-        top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"), **BARE)
-        self._at_levels(lambda explores: setattr(top, "stylesheets", [HIGH, PLAIN] if explores else [HIGH]))
-        self.pacer.shows(partial(show_top, top), "rest")
-        told = VerdictWords(self.runs)
-        self.pacer.shows(told.show, "rest")
-        spin = Button(say("build.spin.it"), self._spin, kind="primary", margin=(8, 0, 0, 0))
-        parts = {"section": bench.section_view, "built": (top, told.view, told.strip, spin), "bench": bench.bench_view}
-        section, built, measures = (
-            card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
+        bench, built, own = (
+            Build(self.builder, self.runs),
+            Built(self.runs, self._spin),
+            RockingFields(self.builder),
         )
-        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
+        for show in (bench.show, built.show):
+            self.pacer.shows(show, "rest")
+        self._at_levels(lambda explores: bench.numbers.param.update(visible=not explores))
+        self._at_levels(lambda explores: own.formula.param.update(visible=not explores))
+        parts = {"section": bench.section_view, "bench": bench.bench_view, "measure": own.view}
+        section, measures, rocking = (card(say(f"main.cards.{name}"), *shown) for name, shown in parts.items())
+        stage = pn.Column(*built.view, sizing_mode="stretch_width", margin=0)
+        return staged([later(stage, -1), later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
     def _spin(self):
-        self.lab_of.ask(table="ordinary")
+        """Shows the run of the verdict."""
+        self.lab_of.ask(table="ordinary", spin=SPIN, tilt=TILT, mu=MU, law="contact", patch=PATCH)
         self._look_at(room=room.FIRST)
 
     def families(self):
@@ -188,9 +181,9 @@ class House:
         self.pacer.shows(compare.show, "hand")
         compare.compute()
         cards = (
-            (card(say("family.tops.title"), *tops.map_view, height="max-content"), "3 1 560px"),
-            (card("", *tops.beside_view, height="max-content"), "2 1 360px"),
-            (card(say("main.cards.map"), *compare.map_view, height="max-content"), "1 1 100%"),
+            (card(say("family.tops.title"), *tops.map_view), "3 1 560px"),
+            (card("", *tops.beside_view), "2 1 360px"),
+            (card(say("main.cards.map"), *compare.map_view), "1 1 100%"),
         )
         return flexible(*cards)
 
@@ -216,6 +209,7 @@ class House:
         self.keep.add(maps.choice, usual=lambda choice: maps.usual)
         maps.choice.param.watch(lambda *events: self.keep.at_rest(), [*maps.choice.INPUTS])
         self.pacer.shows(maps.show, "rest")
+        self._at_levels(lambda explores: maps.open(not explores))
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
@@ -227,6 +221,7 @@ class House:
     def measure(self):
         measure = Measure(self.scene, self.runs)
         self.keep.add(measure.filmed)
+        self._at_levels(lambda explores: measure.found.param.update(css_classes=["brief"] if explores else []))
         self.pacer.shows(measure.show, "hand")
         return measure.view
 

@@ -13,6 +13,9 @@ from app.server.answers import Handler, Root
 from app.server.logs import refused
 from app.widgets.waiting import waiting
 
+UNUSED = ("bokeh-gl", "bokeh-mathjax")
+"""Parts of Bokeh's scripts of which nothing is used; its tables Panel's own script asks for."""
+
 
 class Sheet:
     """The HTML of the page, generated once in each language; what differs between visitors is inserted."""
@@ -20,9 +23,10 @@ class Sheet:
     TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # placeholders for those of a visitor
 
     def __init__(self, session, resources):
-        document = session.document
+        document, needed = session.document, Resources.from_bokeh(resources)
+        needed.components = [name for name in needed.components if name not in UNUSED]
         html = server_html_page_for_session(
-            session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
+            session, needed, document.title, token=self.TOKEN, template=document.template,
             template_variables=document.template_variables)  # fmt: skip
         before, after = html.split(waiting(text.DEFAULT))  # the language of the template
         self._pages = {}

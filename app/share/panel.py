@@ -62,7 +62,7 @@ class Files:
         self._scene, self._shown, self._link = None, {}, ""
         tables = listed("share.tables")
         self._table = Choice({tables[name]: name for name in tables}, next(iter(tables)), margin=(4, 0))
-        self._table.param.watch(lambda event: self._name(), "value")
+        self._table.on("value", lambda event: self._name())
         self._of = words("", margin=(4, 0))
         self._photo = Photo(margin=0, none=say("share.no_top"))
         self._saves = {kind: self._save(kind) for kinds in ROWS.values() for kind in kinds}
@@ -100,7 +100,7 @@ class Files:
         shown = listed("share.python")
         codes = {shown[name]: name for name in programs.PYTHON}
         self._which = Choice(codes, next(iter(programs.PYTHON)), margin=(4, 0))
-        self._which.param.watch(lambda event: self._show_python(), "value")
+        self._which.on("value", lambda event: self._show_python())
         prints = [
             _row(_says(say(f"prints.figures.{name}")), *(
                 self._of_scene(kind.upper(), f"tippe-top-{name}.{kind}", _print(name, kind)) for kind in ("png", "svg")

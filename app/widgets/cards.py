@@ -2,27 +2,23 @@
 
 import panel as pn
 
-from app.model.colours import ACCENT, COLOURS
+from app.model.colours import ACCENT
 from app.widgets.typeset import typeset
 
 LINK = f"color-mix(in srgb, {ACCENT} 60%, var(--ink, #22303c))"  # legible on light and on dark
-# Two rows fill a screen; on a phone, where rows of buttons wrap, a card needs more.
-HEIGHT_OF_A_CARD = (
-    "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
-)
 # The stage beside the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 STAGED = """
-:host { display: flex; flex-direction: column; gap: 12px; padding: 0 12px 12px; min-height: max-content }
+:host { display: flex; flex-direction: column; gap: 24px; padding: 12px 16px 16px; min-height: max-content }
 @media (min-width: 1000px) {
-  :host { display: grid; align-items: start; padding: 12px 24px;
+  :host { display: grid; align-items: start; padding: 12px 24px 24px;
     grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) }
 }
 """
 MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
 SIDE = """
 :host { display: contents } .scroll-button { display: none !important }
-@media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 12px } }
+@media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 24px } }
 """
 IN_SIGHT = "@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }"
 # The card with the stage. On a narrow page it stays in sight below the head; otherwise it is as high as the cards
@@ -35,20 +31,26 @@ FIRST = """
 # A name, a note, and an error, wherever they are.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
-.name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { font-weight: 500 }
+.name sub { font-size: 0.8em } .note { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+.alert { font-weight: 500 }
 .alert::before { content: "!" / ""; display: inline-grid; place-items: center; width: 1.5em; height: 1.5em;
   margin-right: 6px; border-radius: 50%; background: var(--ink, #22303c); color: var(--card, white) }
 .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
 .name[title], .note [title] { cursor: help }
 """
 TYPE = """
-:host { font: calc(13px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink, #22303c) }
-h2 { font-size: calc(15px * var(--type, 1)); margin: 0; font-weight: 600 }
+:host { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #22303c) }
+h2 { font-size: calc(14px * var(--type, 1)); margin: 0; font-weight: 600 }
 i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
-.key { color: var(--faint, #5b6875) } .key span { white-space: nowrap } [title] { cursor: help }
+.key { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+.key span { white-space: nowrap } [title] { cursor: help }
 .axis { text-align: center } b { font-weight: 600 }
 .quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
 .swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
+progress { appearance: none; width: min(100%, 240px); height: 6px; border: 0; border-radius: 3px; overflow: hidden;
+  background: var(--rule, #d8dce0) } progress::-webkit-progress-bar { background: var(--rule, #d8dce0) }
+progress::-webkit-progress-value { background: var(--ink, #22303c) }
+progress::-moz-progress-bar { background: var(--ink, #22303c) }
 a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
 """.replace("LINK", LINK) + NOTES  # fmt: skip
 
@@ -75,50 +77,29 @@ def note(text):
 def tall(*cards):
     """A column of a grid with its own height: its cards are higher than a phone's page, and the next column would hide
     them."""
-    styles = {"gap": "12px", "height": "max-content", "max-height": "none"}
+    styles = {"gap": "24px", "height": "max-content", "max-height": "none"}
     return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
 
 
 def progress(percent, says):
     """A progress bar; says: its name for screen readers."""
-    style = f"width: 100%; accent-color: {COLOURS['chosen']}"
-    return f'<progress max="100" value="{percent:.0f}" aria-label="{says}" style="{style}"></progress>'
+    return f'<progress max="100" value="{percent:.0f}" aria-label="{says}"></progress>'
 
 
 def swatch(colour, text, style="solid"):
     return f'<span><span class="swatch" style="border-color: {colour}; border-top-style: {style}"></span>{text}</span>'
 
 
-def card(title, *content, height=HEIGHT_OF_A_CARD):
-    return boxed(words(f"<h2>{title}</h2>"), *content, height=height)
-
-
-def boxed(*content, height):
-    """A card without a title."""
-    return pn.Column(
-        *content,
-        sizing_mode="stretch_width",
-        margin=0,
-        styles={
-            "background": "var(--card, white)",
-            "border-radius": "10px",
-            "padding": "10px 14px",
-            "height": height,
-            "box-shadow": "0 1px 3px rgb(34 48 60 / 18%)",
-            "box-sizing": "border-box",
-            "overflow": "hidden",
-        },
-    )
+def card(title, *content, height="max-content"):
+    """A part of a room, with its title."""
+    styles = {"height": height, "box-sizing": "border-box", "overflow": "hidden"}
+    return pn.Column(words(f"<h2>{title}</h2>"), *content, sizing_mode="stretch_width", margin=0, styles=styles)
 
 
 def flow(*content, margin=(6, 0)):
     """A row that wraps if there is too little room."""
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
     return pn.Column(*content, sizing_mode="stretch_width", margin=margin, styles=styles)
-
-
-def section(title):
-    return words(f"<h2>{title}</h2>", margin=(14, 16, 0, 16))
 
 
 def grid(*cards, narrowest=480):
@@ -130,8 +111,8 @@ def grid(*cards, narrowest=480):
         styles={
             "display": "grid",
             "grid-template-columns": f"repeat(auto-fit, minmax(min(100%, {narrowest}px), 1fr))",
-            "gap": "12px",
-            "padding": "12px",
+            "gap": "24px",
+            "padding": "12px 24px 24px",
         },
     )
 
@@ -165,5 +146,11 @@ def flexible(*cards):
     """A row of (card, its CSS flex: growth, shrinkage and least width), which wraps."""
     for each, flex in cards:
         each.styles = each.styles | {"flex": flex, "min-width": "0"}
-    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
+    styles = {
+        "display": "flex",
+        "flex-flow": "row wrap",
+        "gap": "24px",
+        "padding": "12px 24px 24px",
+        "align-items": "start",
+    }
     return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)

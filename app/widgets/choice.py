@@ -2,25 +2,23 @@
 
 import param
 
-from app.borrowed import at_once
-from app.bundle import Bundled
+from app.widgets.forms import Part
 
 
-class Choice(Bundled):
+class Choice(Part):
     """One of several is chosen; what stands for each is a text or a whole number."""
 
-    label = param.String(default="", doc="Before the buttons; also for screen readers.")
     options = param.Dict(default={}, doc="{word on the button: value}.")
     value = param.Parameter(doc="One of the values.")
+    SENDS = ("value",)
 
-    def __init__(self, options, value, label="", **layout):
-        super().__init__(options=options, value=value, label=label, **({"margin": 0} | layout))
-        at_once(self, "value")
+    def __init__(self, options, value, label="", **params):
+        super().__init__(label, options=options, value=value, **params)
 
     @classmethod
     def of(cls, owner, name, options, **layout):
         """The choice of a parameter, which it follows."""
         made = cls(options, getattr(owner, name), **layout)
-        made.param.watch(lambda event: setattr(owner, name, event.new), "value")
+        made.on("value", lambda event: setattr(owner, name, event.new))
         owner.param.watch(lambda event: setattr(made, "value", event.new), name)
         return made

@@ -23,9 +23,21 @@ class Part(Bundled):
         super().__init__(label=label, **({"margin": 0} | params))
         at_once(self, *self.SENDS)
 
+    def on(self, name, act):
+        """Calls act(event) when this value changes; all changes that it makes on the page are sent as one message.
+
+        (Without that, Bokeh refuses changes of a figure here, because Panel does not have the document's lock.)
+        """
+
+        def heard(event):
+            with pn.io.hold():
+                act(event)
+
+        self.param.watch(heard, name)
+
 
 class Button(Part):
-    """does: called at each click; all changes that it makes on the page are sent as one message.
+    """does: called at each click.
 
     The browser counts the clicks, so none is lost. One that arrives after the button was disabled does nothing.
     """
@@ -38,18 +50,17 @@ class Button(Part):
     def __init__(self, label, does=None, **params):
         super().__init__(label, **params)
         self._does = [] if does is None else [does]
-        self.param.watch(self._clicked, "clicks")
+        self.on("clicks", self._clicked)
 
     def on_click(self, does):
         """From now on calls this, too."""
         self._does.append(does)
 
     def _clicked(self, event):
-        with pn.io.hold():
-            for _ in range(min(event.new - event.old, MOST_CLICKS)):
-                if not self.disabled:
-                    for does in self._does:
-                        does()
+        for _ in range(min(event.new - event.old, MOST_CLICKS)):
+            if not self.disabled:
+                for does in self._does:
+                    does()
 
 
 class Field(Part):
@@ -100,7 +111,7 @@ class Stretch(Part):
     def __init__(self, label, does=None, **params):
         super().__init__(label, **params)
         self._does = does
-        self.param.watch(asked.heard(self._heard), "pulled")
+        self.on("pulled", asked.heard(self._heard))
 
     def _heard(self, event):
         _, low, high = asked.parts(event.new, *3 * [asked.number])
@@ -120,7 +131,7 @@ class TextFile(Part):
     def __init__(self, label, take, refuse, **params):
         super().__init__(label, **params)
         self._take, self._refuse = take, refuse
-        self.param.watch(asked.heard(self._heard), "sent")
+        self.on("sent", asked.heard(self._heard))
 
     def _heard(self, event):
         text, _, size = asked.parts(event.new, asked.text, asked.number, asked.number)

@@ -36,6 +36,7 @@ from tippe_core import (
     frustum,
     load_top,
     pole_constants,
+    rocking_period,
     save_top,
 )
 
@@ -309,3 +310,8 @@ class Rocking:
                     unit="m",
                 ) from None
             raise
+
+
+def rocks_once(shape: Shape) -> float:
+    """The period, in s, of small rocking of a body with G below O, without spin and without slipping."""
+    return rocking_period(shape.top) * shape.scales.time

@@ -1,10 +1,11 @@
-"""Whether a body turns over, determined from its own run: released like the arrival's toy, on the ordinary table."""
+"""What becomes of a body, determined from its own run: released like the arrival's toy, on the ordinary table."""
 
 from dataclasses import dataclass
 
 from app.model.arrival import MU, SPIN, TABLE, TILT
 from app.model.events import first_times
-from app.model.run import TooLong, whole_on
+from app.model.phases import NODS
+from app.model.run import TableMotion, TooLong, whole_on
 from app.model.setup import start_of
 from app.text import say, told
 from tippe_core import Shape, TopError
@@ -13,7 +14,8 @@ from tippe_core.types import Number
 
 @dataclass(frozen=True)
 class Verdict:
-    """code: "over", "not", or "refused" if there is no such run; headline and why: in words."""
+    """code: how its run ends, as in the strip of all spins (ends.IN_LAB): "stands", "inverted", "leans", "upright", or
+    "refused" if there is no such run; headline and why: in words."""
 
     code: str
     headline: str
@@ -29,11 +31,21 @@ def verdict(shape: Shape) -> Verdict:
         why = told(error) if isinstance(error, TopError) else say("lab.refused.too-long")
         return Verdict("refused", say("build.verdict.refused"), say("build.verdict.refused_why", why=why, **start))
     found = first_times(motion)
-    code = "over" if "over" in found else "not"
+    code = _end_of(motion, found)
     part = say(f"planes.parts.{motion.start.part}")
     said = [say(f"build.verdict.{each}", time=found[each], part=part)
             for each in ("over", "stands-on-stem", "stands-inverted", "falls") if each in found]  # fmt: skip
-    if code == "not":
+    if "over" not in found:
         low, high = float(motion.tilt.min()), float(motion.tilt.max())
         said = [say("build.verdict.stays", low=low, high=high, seconds=motion.start.seconds)]
-    return Verdict(code, say(f"build.verdict.{code}_headline"), " ".join([say("build.verdict.start", **start), *said]))
+    return Verdict(
+        code, say(f"build.verdict.{code}_headline", part=part), " ".join([say("build.verdict.start", **start), *said])
+    )
+
+
+def _end_of(motion: TableMotion, found: dict[str, float]) -> str:
+    """Whether it got to stand, though it may fall again; else how it is at the end."""
+    for code, event in (("stands", "stands-on-stem"), ("inverted", "stands-inverted")):
+        if event in found:
+            return code
+    return "leans" if motion.tilt[-1] > NODS else "upright"

@@ -94,7 +94,7 @@ class Inside:
         self._silent = False
         options = {says: kind for kind, says in listed("build.inside").items()}
         self.switch = Choice(options, "solid", say("build.bench.inside"))
-        self.switch.param.watch(lambda event: None if self._silent else choose(event.new), "value")
+        self.switch.on("value", lambda event: None if self._silent else choose(event.new))
         self.steel = words(note(say("build.bench.steel")), sizing_mode=None)
         self.view = pn.Column(flow(self.switch, self.steel), sizing_mode="stretch_width", margin=0)
 
@@ -113,8 +113,8 @@ class Build:
         runs = runs or Runs()
         self.builder, self._tried = builder, {}  # the last requested value of a dimension, in its unit
         self._dimensions, self._shown, self._silent = {}, None, False
-        self.section = Section(builder.set)
-        self.derived, self.file_words = words(), words()
+        self.section = Section(self._drag)
+        self.numbers, self.derived, self.file_words = words(), words(), words()
         self.source = words(styles={"min-height": SAYS})  # so that nothing below it moves when a hand changes the body
         self.presets = self._choice("presets", builder.choose)
         self.families = self._choice("family", builder.choose_family)
@@ -140,6 +140,10 @@ class Build:
         builder.param.watch(lambda event: self._show(event.new), "draft")
         self._show(builder.draft)
 
+    def _drag(self, name, value):
+        self._tried = {}
+        self.builder.set(name, value)
+
     def _pull(self, name, value, typed):
         """A request for a dimension, in its unit."""
         self._tried = {name: value}
@@ -147,7 +151,7 @@ class Build:
 
     def _choice(self, key, choose):
         select = Menu(say(f"build.bench.{key}"))
-        select.param.watch(lambda event: None if self._silent or not event.new else choose(event.new), "value")
+        select.on("value", lambda event: None if self._silent or not event.new else choose(event.new))
         return select
 
     @staticmethod
@@ -172,7 +176,7 @@ class Build:
     def section_view(self):
         """The section, the results, and whether the explorer's numbers are still those of the body."""
         figure = pn.pane.Bokeh(self.section.figure, margin=0, sizing_mode="scale_width", styles=NARROW)
-        return [figure, self.derived, self.parted]
+        return [figure, self.numbers, self.derived, self.parted]
 
     @property
     def bench_view(self):
@@ -199,7 +203,7 @@ class Build:
             if draft.messages:
                 return
             self.section.show(draft)
-            self.derived.object = derived_words(draft.shape)
+            self.numbers.object, self.derived.object = numbers_words(draft.shape), derived_words(draft.shape)
             self.source.object = note(html.escape(draft.source))
 
     def _show_fields(self, draft):
@@ -233,6 +237,14 @@ class Build:
         tracks = {name: (min(each.low, values[name]), max(each.high, values[name]), each.step, None)
                   for name, each in dimensions.items()}  # fmt: skip
         wrong = {name: typeset(said) for name, said in draft.messages.items() if name in dimensions}
+        for name, value in self._tried.items():  # what cannot be any more is said where the hand was
+            if wrong and name in dimensions and name not in wrong:
+                said = {
+                    "name": dimensions[name].words,
+                    "unit": dimensions[name].unit,
+                    "why": next(iter(wrong.values())),
+                }
+                wrong = {name: say("build.bench.with_it", value=tidy(value), **said)}
         tried = {name: value for name, value in self._tried.items() if name in wrong}
         near = {name: nearest(shape, dimensions[name], value) for name, value in tried.items()}
         self.dimensions.show(values, tracks, messages=wrong, refused=tried,
@@ -243,8 +255,9 @@ class Build:
         self.parted.visible = scene.shape is None
 
 
-def derived_words(shape):
-    top, angle = shape.top, shape.touch_angle
+def numbers_words(shape):
+    """The numbers that decide how a body moves."""
+    top = shape.top
     rows = [
         ("<i>a</i>/<i>R</i>", f"= {written(top.a, '.4f')}"),
         ("<i>I</i><sub>1</sub>", f"= {written(top.I1, '.4f')} <i>MR</i><sup>2</sup>"),
@@ -254,11 +267,16 @@ def derived_words(shape):
     if not isinstance(shape, BareSphere):
         # one number if it is of one material, else the mean
         rows.append((say("build.body.density"), f"{shape.mass / shape.volume:.0f} kg/m³"))
-    numbers = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
+    return "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
+
+
+def derived_words(shape):
+    """When its stem touches the table, and what can be printed of it."""
+    angle = shape.touch_angle
     touch = say("build.body.never") if angle is None else say("build.body.touches", angle=math.degrees(angle))
     prints = "unknown" if isinstance(shape, BareSphere) else ""
     if isinstance(shape, LoadedSphere) and shape.core_density:  # unless the core is a cavity
         prints = "outside"
     if isinstance(shape, TruncatedSphere) and shape.disc:
         prints = "outside_disc"
-    return f"<div>{numbers}</div><div>{touch}{say(f'build.body.{prints}') if prints else ''}</div>"
+    return f"<div>{touch}{say(f'build.body.{prints}') if prints else ''}</div>"

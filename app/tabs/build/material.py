@@ -15,7 +15,7 @@ class Material:
         self._known = {say("build.bench.of_density", name=says, density=MATERIALS[name]): name
                        for name, says in listed("build.materials").items()}  # fmt: skip
         self.view = Menu(say("build.bench.material"), options=self._known, value="lime")
-        self.view.param.watch(self._chosen, "value")
+        self.view.on("value", self._chosen)
 
     def _chosen(self, event):
         if not self._silent and event.new:

@@ -17,7 +17,7 @@ from app.widgets.spelling import spelled
 from tippe_core import TopError
 
 OLD = """
-.old { opacity: .45 } .verdict { min-height: calc(110px * var(--type, 1)) }
+.old { opacity: .6 } .verdict { min-height: calc(110px * var(--type, 1)) }
 h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2 }
 """
 

@@ -36,7 +36,7 @@ class Compare:
         self._scene, self._runs, self._run = scene, runs or Runs(), None  # the present run, if any
         self.kind = self._buttons("kinds")
         self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
-        self.kind.param.watch(lambda event: self._prefill(), "value")
+        self.kind.on("value", lambda event: self._prefill())
         spoken = {name: say(f"controls.inputs.{name}.spoken") for name, _ in self.FIELDS}
         self.entries = {name: Field(say("family.map.entry", name=spoken[name]), shows=symbol)
                         for name, symbol in self.FIELDS}  # fmt: skip

@@ -58,7 +58,7 @@ class Learn(param.Parameterized):
     def _build(self):
         intro = words("".join(f"<p style='margin: 0 0 6px'>{say(f'derivation.page.{key}')}</p>"
                               for key in ("intro", "smooth", "vectors")))  # fmt: skip
-        lines = later(card(say("derivation.page.title"), intro, self.derivation.place, height="max-content"), 1)
+        lines = later(card(say("derivation.page.title"), intro, self.derivation.place), 1)
         top = first(card(say("learn.page.top"), self.top))
         # a hidden Column inside, because a grid with a layout of its own cannot be hidden
         self.pair = pn.Column(staged([top], [lines], mirrored=True), sizing_mode="stretch_width", margin=0)

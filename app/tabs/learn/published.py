@@ -76,7 +76,7 @@ def published_view(runs):
     )
 
     def carded(key, *parts):
-        return card(say(f"published.page.{key}"), *parts, height="max-content")
+        return card(say(f"published.page.{key}"), *parts)
 
     why = (words(f"<p style='margin: 0 0 6px'>{say('published.page.cohen')}</p>"), steps_view(runs),
            words(f"<p style='margin: 6px 0 0'>{say('published.page.why')}</p>"))  # fmt: skip

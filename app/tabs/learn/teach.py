@@ -37,11 +37,11 @@ def teach_view(present, close):
     )
 
     def carded(key, content):
-        return card(say(f"teach.page.{key}"), words(content), height="max-content")
+        return card(say(f"teach.page.{key}"), words(content))
 
     return grid(
         tall(
-            card(say("teach.page.vote"), *class_view(present, close), height="max-content"),
+            card(say("teach.page.vote"), *class_view(present, close)),
             carded("fifteen", bullets(listed("teach.plans.fifteen"), True)),
             carded("wrong", bullets(listed("teach.plans.wrong"))),
             carded("toy", bullets(listed("teach.plans.toy"))),
@@ -62,9 +62,8 @@ def history_view():
     )  # fmt: skip
     every = "".join(f"<li>{source['full']}</li>" for source in listed_all("sources"))
     return grid(
-        card(say("history.page.title"), words(parts), height="max-content"),
-        card(say("history.page.list"), words(f"<ol style='margin: 4px 0; padding-left: 22px'>{every}</ol>"),
-             height="max-content"),
+        card(say("history.page.title"), words(parts)),
+        card(say("history.page.list"), words(f"<ol style='margin: 4px 0; padding-left: 22px'>{every}</ol>")),
     )  # fmt: skip
 
 

@@ -4,6 +4,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 
+import panel as pn
+
 from app.model.maps.choice import FIXED
 from app.model.maps.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
 from app.tabs.maps.words import with_unit
@@ -38,22 +40,26 @@ class Settings:
         shows = {f"{side}_{end}": say(f"maps.{end}") for side in SIDES for end in LIMITS}
         shows |= {name: say(f"maps.{name}") for name in ("seconds", "cells")}
         self.entries = {name: Field(says, shows=shows.get(name, "")) for name, says in spoken.items()}
+        self.deep = self._deep()
         self.show(asked, colour, place)
         for name, select in self.choices.items():
-            select.param.watch(partial(self._chosen, name), "value")
+            select.on("value", partial(self._chosen, name))
         for name, entry in self.entries.items():
-            entry.param.watch(partial(self._typed, name), "value")
+            entry.on("value", partial(self._typed, name))
 
     @property
     def view(self):
-        """In the order of the drawing: the axes, the colour, the law; then ranges and numbers."""
+        """The axes and the colour; then what is open at the level Research."""
+        return [flow(*(self.choices[name] for name in ("across", "up", "colour"))), self.deep]
+
+    def _deep(self):
+        """The law, the ranges and numbers."""
         entry = self.entries
         ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80, align="center"),
                        *(entry[f"{side}_{end}"] for end in LIMITS), margin=(4, 0))
                   for side in SIDES]  # fmt: skip
-        selects = [self.choices[name] for name in ("across", "up", "colour", "law")]
-        return [flow(*selects), *ranges, flow(*(entry[name] for name in FIXED)),
-                flow(*(entry[name] for name in ("seconds", "cells")))]  # fmt: skip
+        rows = [*ranges, flow(*(entry[name] for name in FIXED)), flow(*(entry[name] for name in ("seconds", "cells")))]
+        return pn.Column(flow(self.choices["law"]), *rows, sizing_mode="stretch_width", margin=0)
 
     @property
     def place_view(self):

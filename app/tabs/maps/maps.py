@@ -8,7 +8,7 @@ import panel as pn
 
 from app.model.maps.body import outline_of
 from app.model.maps.choice import AT, MapChoice
-from app.model.maps.kept import keep, recall
+from app.model.maps.kept import claimed, keep, recall
 from app.model.maps.lines import disagreements, lines
 from app.model.maps.maps import OWN, QUANTITIES, Map, of_page
 from app.model.maps.solving import run as one_run
@@ -31,14 +31,15 @@ from tippe_core import TopError
 
 MAP = Map()
 PICTURE_EVERY = 0.3  # s
-PART = {"background": "var(--card, white)", "border-radius": "10px", "padding": "10px 14px", "box-sizing": "border-box",
-        "min-width": "0"}  # fmt: skip
+OTHERS = 0.3  # s between two looks for a map that is being computed for another page
+PART = {"min-width": "0"}
 # On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
 ROOM = """
-:host { display: grid; gap: 12px; padding: 12px; align-items: start; grid: auto-flow max-content / minmax(0, 1fr);
+:host { display: grid; gap: 16px 24px; padding: 12px 16px 16px; align-items: start;
+  grid: auto-flow max-content / minmax(0, 1fr);
   min-height: max-content }
 @media (min-width: 900px) {
-  :host { padding: 12px 24px; grid: max-content 1fr / minmax(0, 66fr) minmax(0, 34fr) }
+  :host { padding: 12px 24px 24px; grid: max-content 1fr / minmax(0, 66fr) minmax(0, 34fr) }
   .run { grid-area: 1 / 2 / span 2 }
 }
 """
@@ -104,6 +105,11 @@ class Maps:
                            stylesheets=[ANSWER])
                  for content, name in ((above, "above"), (beside, "run"), (below, "below"))]  # fmt: skip
         return pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[ROOM])
+
+    def open(self, all_of_it):
+        """Shows, or hides, what is for the level Research."""
+        for part in (self.settings.deep, self.steady.deep):
+            part.visible = all_of_it
 
     def show(self, scene):
         """Uses the top of the page's new scene, if it has changed."""
@@ -191,17 +197,23 @@ class Maps:
         return place if inside else [(low + high) / 2 for low, high in spans(asked)]
 
     def _work(self, asked, run):
-        level = recall(asked)
-        shown = 0.0
-        if level is None:
-            for level in solve(asked, run.look):
-                # messages only now and then: on a slow line more would queue up
-                if level.whole or time.monotonic() > shown + PICTURE_EVERY:
-                    shown = time.monotonic()
-                    self._runs.post(partial(self._show_part, run, level.copy(), run.reached))
-            keep(level)
+        while (level := recall(asked)) is None:
+            with claimed(asked) as mine:
+                if mine:
+                    self._compute(asked, run)
+                    continue
+            run.wait(OTHERS)
         lines(asked)
         return level, disagreements(level)
+
+    def _compute(self, asked, run):
+        shown = 0.0
+        for level in solve(asked, run.look):
+            # messages only now and then: on a slow line more would queue up
+            if level.whole or time.monotonic() > shown + PICTURE_EVERY:
+                shown = time.monotonic()
+                self._runs.post(partial(self._show_part, run, level.copy(), run.reached))
+        keep(level)
 
     def _show_part(self, run, level, share):
         if run is self._run and not run.stopped:

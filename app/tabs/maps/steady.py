@@ -62,15 +62,21 @@ class Steady:
             draw(self.grow, Scatter, "x", "y", source=runs, size=6, fill_color=colour, line_color=INK)
             self.branches[name] = line, runs
 
+        self.deep = self._deep()
+
     @property
     def view(self):
+        return [self.title, _pane(self.bends), self.key, self.says, self.deep]
+
+    def _deep(self):
+        """What is open at the level Research: the rates, and the tables of scaling."""
         pair = pn.Row(*(_pane(fig, flex="1 1 240px") for fig in (self.grow, self.turn)), margin=0,
                       styles={"display": "flex", "flex-flow": "row wrap"}, sizing_mode="stretch_width")  # fmt: skip
         named = listed("maps.branches")
         key = "".join(f'<span style="color: {OF_KEY.get(colour, colour)}">■</span> {named[name]} &emsp; '
                       for name, colour in COLOURS.items())  # fmt: skip
-        return [self.title, _pane(self.bends), self.key, self.says, self.rates_title, words(note(key)), pair, self.laws,
-                self.powers]  # fmt: skip
+        return pn.Column(self.rates_title, words(note(key)), pair, self.laws, self.powers,
+                         sizing_mode="stretch_width", margin=0)  # fmt: skip
 
     def show(self, asked, place):
         """Computes and draws the results for the bead at a place of a Map."""

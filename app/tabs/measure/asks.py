@@ -28,7 +28,7 @@ class Asks:
                              self.seen)  # fmt: skip
         self.view = pn.Column(sizing_mode="stretch_width", margin=0)
         for part in (self.run, self.seen):
-            part.param.watch(self._answered, "value")
+            part.on("value", self._answered)
 
     def show(self, table, anew):
         """Asks what this table leaves open; returns it, if not anew, with what was chosen before for such columns."""

@@ -36,7 +36,7 @@ class Columns:
     def _ask_rate(self):
         """Makes an empty field for it."""
         self.rate = Field(say("measure.rate"), shows=say("measure.rate"))
-        self.rate.param.watch(lambda event: self._changed(self._table), "value")
+        self.rate.on("value", lambda event: self._changed(self._table))
         self._of_rate.objects = [self.rate]
 
     def show(self, table):
@@ -96,9 +96,9 @@ class Columns:
                 return
             correct(replace(self._table.columns[i], error=size))
 
-        quantity.param.watch(lambda event: correct(taken_as(self._table.columns[i], event.new or "")), "value")
-        unit.param.watch(to_unit, "value")
-        error.param.watch(to_error, "value")
+        quantity.on("value", lambda event: correct(taken_as(self._table.columns[i], event.new or "")))
+        unit.on("value", to_unit)
+        error.on("value", to_error)
         return flow(name, quantity, unit, error, guessed, margin=(4, 0))
 
 

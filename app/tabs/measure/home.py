@@ -19,7 +19,7 @@ class Home:
     def __init__(self, runs, filmed):
         self._filmed, self.film, self.fit = filmed, "", ()
         self.in_link = Checks(options={say("measure.in_link"): "link"}, margin=(4, 0))
-        self.in_link.param.watch(lambda event: self._put_in_link(), "value")
+        self.in_link.on("value", lambda event: self._put_in_link())
         self.of_link = words()
         self.view = pn.Column(flow(*self._downloads(runs)), self.in_link, self.of_link, sizing_mode="stretch_width",
                               margin=0, visible=False)  # fmt: skip

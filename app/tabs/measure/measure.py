@@ -59,10 +59,10 @@ class Measure:
     def _make_controls(self):
         self.part = part_of_time(self._draw)
         self.law = Choice({says: law for law, says in listed("measure.laws").items()}, LAW)
-        self.law.param.watch(lambda event: self._draw(), "value")
+        self.law.on("value", lambda event: self._draw())
         self.loose = Checks(say("measure.loose_label"), margin=(4, 0),
                             options={says: name for name, says in listed("measure.loose").items()})  # fmt: skip
-        self.loose.param.watch(lambda event: self._draw(), "value")
+        self.loose.on("value", lambda event: self._draw())
         self.start = Button(say("measure.fit"), self.compute, disabled=True)
         self.cancel = Button(say("measure.cancel"), lambda: self._run and self._run.stop(), disabled=True)
         self.leave = Button(say("measure.leave"), self._leave, visible=False)

@@ -11,15 +11,16 @@ from app.widgets.cards import note
 
 SHOWN = {"tilt": 180 / np.pi}
 NAMED = 8  # times of values that are far off
-OF_MODELS = ("", *[" class=n"] * 4, "")
+OF_MODELS = ("", *[" class=n"] * 2, *[" class='n deep'"] * 2, "")
 TABLE = """
 table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
-p { margin: 4px 0 } td, th { padding: 5px 10px 5px 0; text-align: left; font-weight: normal; vertical-align: baseline }
-th { color: var(--faint, #5b6875); font-size: 12px }
+p { margin: 4px 0 } td, th { padding: 3px 10px 3px 0; text-align: left; font-weight: normal; vertical-align: baseline }
+th { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+:host(.brief) .deep { display: none }
 td.n, th + th:not(:last-child) { text-align: right } td.n { white-space: nowrap }
 tr.best td { font-weight: 600 }
 td.faint { color: var(--faint, #5b6875) } tr + tr { border-top: 1px solid var(--rule, #d8dce0) }
-h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
+h3 { font-size: calc(18px * var(--type, 1)); margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
 @media (max-width: 500px) { td, th { padding-right: 4px } }
 """
 
@@ -108,7 +109,8 @@ def numbers_table(fit):
     for name in fit.model.free:
         size = sizes.get(name, 1.0)
         value, error = _error(fit.model.values[name] * size, *(side * size for side in fit.sides[name]))
-        marks = [say("measure.with", name=other, correlation=r) for other, r in _partners(fit, name)]
+        marks = [f"<span class=deep>{say('measure.with', name=other, correlation=r)}</span>"
+                 for other, r in _partners(fit, name)]  # fmt: skip
         if name in fit.unknown:
             marks.insert(0, say("measure.unknown"))
         if name in fit.bounded:
@@ -147,7 +149,8 @@ def _together(one, other, r):
 
 def models_table(rolling, sliding):
     """Both models, fitted to the same data."""
-    head = "".join(f"<th>{word}</th>" for word in listed("measure.heads"))
+    heads = zip(OF_MODELS, listed("measure.heads"), strict=True)
+    head = "".join(f"<th{mark.replace('n deep', 'deep')}>{word}</th>" for mark, word in heads)
     better = min(rolling, sliding, key=lambda fit: fit.aic)
     rows = []
     for fit in (sliding, rolling):
@@ -155,7 +158,7 @@ def models_table(rolling, sliding):
         chi2, aic = (written(value, ",.0f") for value in (fit.chi2, fit.aic))
         cells = (chi2, f"{fit.freedom}", aic, seldom, say(f"measure.{_state(fit)}"))
         rows.append(_row(say(f"measure.models.{fit.model.name}"), *cells, best=fit is better, marks=OF_MODELS))
-    return f"<table><tr>{head}</tr>{''.join(rows)}</table>{note(say('measure.heads_mean'))}"
+    return f"<table><tr>{head}</tr>{''.join(rows)}</table><div class=deep>{note(say('measure.heads_mean'))}</div>"
 
 
 def _state(fit):

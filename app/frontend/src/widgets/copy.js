@@ -2,7 +2,7 @@
 import { follow, frame } from "../controls/frame.js";
 import { part } from "./parts.js";
 
-const STYLE = `.copy { display: flex; width: 100%; gap: 8px; align-items: flex-start; }
+const STYLE = `:host > div { width: 100%; } .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start; }
 textarea { flex: 1 1 0; min-width: 0; font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1px solid var(--line-2); border-radius: 6px; color: inherit; background: none; resize: none; }
 .outline { min-width: 76px; text-align: center; }`;
 const SAID_MS = 1500;
