@@ -110,7 +110,7 @@ class Code:
             yield whole.split(".")[-1] if module.split(".")[0] in self.packages else whole
         elif not name:
             yield self.module(module)
-        elif name in self.module(module).bound:
+        elif (module, name) not in self.module(module).bound.get(name, [(module, name)]):  # a package's own module
             yield from self.meant(module, name)
         else:
             yield from self.found(f"{module}.{name}", "")

@@ -51,11 +51,11 @@ IMPORTED = ["app.page.page", "app.server.server", "app.model.votes.desk"]  # wha
 class Forked:
     """`python -m app`, forked from a process that has imported all of it: what Popen has, of such a process."""
 
-    def __init__(self, arguments, environment, output):
+    def __init__(self, arguments, environment, output, code):
         if multiprocessing.get_start_method(allow_none=True) != "forkserver":
             multiprocessing.set_start_method("forkserver", force=True)
             multiprocessing.set_forkserver_preload(IMPORTED)
-        self._process = multiprocessing.Process(target=serve, args=(arguments, environment, str(output)))
+        self._process = multiprocessing.Process(target=serve, args=(arguments, environment, str(output), code))
         self._process.start()
         self.pid, self.terminate, self.kill = self._process.pid, self._process.terminate, self._process.kill
 
@@ -75,8 +75,8 @@ class Forked:
         return self.returncode
 
 
-def serve(arguments, environment, output):
-    """Runs `python -m app` in this process."""
+def serve(arguments, environment, output, code):
+    """Runs `python -m app` in this process, after this code."""
     with open(output, "a") as file:
         for descriptor in (1, 2):
             os.dup2(file.fileno(), descriptor)
@@ -84,13 +84,14 @@ def serve(arguments, environment, output):
     os.environ.clear()
     os.environ.update(environment)
     sys.argv = ["app", *arguments]
+    exec(code, {})
     runpy.run_module("app", run_name="__main__", alter_sys=True)
 
 
 @contextmanager
-def served(output, wait=True, before=(), arguments=(), **settings):
+def served(output, wait=True, before=(), arguments=(), code="", **settings):
     """Runs `python -m app` with these settings until the end of the block. output: the file for its log. wait: begin
-    the block when the server answers. before: a command that runs the rest of its arguments."""
+    the block when the server answers. before: a command that runs the rest of its arguments. code: runs first."""
     settings = {"port": free_port(), "address": "127.0.0.1"} | settings
     environment = {**os.environ, **{f"TIPPE_{name.upper()}": str(value) for name, value in settings.items()}}
     if before or os.name != "posix":
@@ -98,7 +99,7 @@ def served(output, wait=True, before=(), arguments=(), **settings):
             process = subprocess.Popen([*before, sys.executable, "-m", "app", *arguments], env=environment, stdout=file,
                                        cwd=ROOT, stderr=subprocess.STDOUT)  # fmt: skip
     else:
-        process = Forked(arguments, environment, output)
+        process = Forked(arguments, environment, output, code)
     root = f"http://127.0.0.1:{settings['port']}"
     try:
         if wait:

@@ -192,14 +192,11 @@ def test_a_page_on_a_slow_line_has_time():
 
 # The first page's token has ended when it is sent.
 OLD = """
-import runpy, sys
 import app.server.pages as pages
 real, first = pages.generate_jwt_token, [-60]
 def given(*arguments, expiration, **named):
     return real(*arguments, expiration=first.pop() if first else expiration, **named)
 pages.generate_jwt_token = given
-sys.argv[1:] = sys.argv[4:]
-runpy.run_module("app", run_name="__main__", alter_sys=True)
 """
 
 
@@ -242,7 +239,7 @@ def guest(url):
 @pytest.mark.served
 def test_a_page_that_is_refused_at_its_socket_says_why_and_comes(page, tmp_path):
     """Its scripts came too late; there was no room; and somebody in between closed it without a reason."""
-    with served(tmp_path / "log", before=[sys.executable, "-c", OLD], sessions=1, linger=1) as server:
+    with served(tmp_path / "log", code=OLD, sessions=1, linger=1) as server:
 
         def comes():
             page.wait_for_function(HERE)

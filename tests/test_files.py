@@ -16,7 +16,7 @@ from app import app_hooks
 from app.server import files
 
 FEW = 96  # open files
-UNDER = ["sh", "-c", f'ulimit -n {FEW} && exec "$@"', "sh"]
+UNDER = f"import resource; resource.setrlimit(resource.RLIMIT_NOFILE, ({FEW}, {FEW}))"
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there, sockets are not counted with the files")
 
@@ -49,7 +49,7 @@ def test_more_connections_than_files_are_closed_and_others_come_in_when_those_be
         inside.leave()
         return answered, silent
 
-    with served(tmp_path / "log", before=UNDER) as server:
+    with served(tmp_path / "log", code=UNDER) as server:
         answered, silent = run(crowded(server))
         assert answered == "OK"
         until(lambda: all(map(closed, silent)))

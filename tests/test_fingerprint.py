@@ -12,7 +12,7 @@ from fingerprint import Code, core, fingerprint, key_of
 import tippe_core
 
 FILES = {
-    "top/__init__.py": "from .run import slide as slide\n",
+    "top/__init__.py": "from . import laws as laws\nfrom .run import slide as slide\n",
     "top/run.py": '''
 """Runs."""
 import numpy as np

@@ -218,7 +218,7 @@ def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(v
         until_field(visit, name, float(text.replace("−", "-")))
     constants = Constants.from_state(TOP, 0.6, 1.5, -2.0, 9.0)
     before = until_selected(visit, K_J=float(constants.K_J), K_R=float(constants.K_R))
-    visit.page.get_by_text(f"{constants.K_J:.4g}".replace("-", "−")).first.wait_for()
+    visit.page.get_by_text(f"{constants.K_J:.4g}".replace("-", "−")).locator("visible=true").first.wait_for()
     visit.page.get_by_role("radio", name="Constants", exact=True).click()
     visit.page.get_by_role("slider", name="Routh’s constant").wait_for()
     for name in ("K_J", "K_R"):

@@ -281,9 +281,9 @@ def test_axe_finds_nothing_and_a_finger_finds_all(lab, like):
     for table in ("Ordinary", "All three"):
         page.get_by_role("radio", name=table).click()
         page.locator(f".lab[data-table={'three' if ' ' in table else 'ordinary'}]").wait_for()
-        page.evaluate(LOOK, "light")
-        assert violations(page) == [], table
+        assert violations(page, leaves_out=["color-contrast"] if like else []) == [], table  # a phone's are the same
+    if not like:
         page.evaluate(LOOK, "dark")
-        assert contrast(page) == [], table
+        assert contrast(page) == []
     page.get_by_role("button", name="Spin all three").click()
     page.wait_for_function(f"{TOPS}.some((top) => top.playing && top.t > 0)")

@@ -51,6 +51,13 @@ def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
     assert rested == [TILT, 12.0]
 
 
+def test_inertias_that_no_body_has_leave_what_is_shown(tab):
+    before = shown(tab)
+    tab.lab.start.I3 = 2.0  # typed at the level "Research"
+    tab.show()
+    assert shown(tab)["of"] == before["of"] and shown(tab)["was"] == shown(tab)["wants"] == ""
+
+
 def test_a_wish_is_answered_with_its_count(tab):
     frames = tab.view.frames_ordinary
     state = wish(tab, 1, "tilt", 12.0)

@@ -28,8 +28,9 @@ ROOT = Path(__file__).parent.parent
 @pytest.fixture(scope="module")
 def running(tmp_path_factory):
     """Of few sessions and, at first, of few open files."""
-    few = ["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh"] if sys.platform != "win32" else []
-    with served(tmp_path_factory.mktemp("server") / "log", before=few, sessions=3, sessions_per_address=2,
+    few = "from resource import *; setrlimit(RLIMIT_NOFILE, (256, getrlimit(RLIMIT_NOFILE)[1]))"
+    few = few if sys.platform != "win32" else ""
+    with served(tmp_path_factory.mktemp("server") / "log", code=few, sessions=3, sessions_per_address=2,
                 linger=1) as server:  # fmt: skip
         yield server
 

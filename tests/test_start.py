@@ -12,6 +12,7 @@ from bokeh.document import Document
 from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
+from app.model.lab.ends import SPINS, Ends
 from app.model.lab.lab import Lab
 from app.model.lesson.lesson import NAMES as STEP_NAMES
 from app.model.runs import Runs
@@ -190,8 +191,11 @@ def test_a_link_of_the_first_version_opens_the_start_of_its_view(query, opens):
 
 @contextmanager
 def visitor(search):
-    """(House, Rooms) of a page with this address; its results come at once."""
+    """(House, Rooms) of a page with this address; its results come at once, without where runs of all spins end."""
     made = {}
+
+    def no_ends(key, look):
+        return Ends(SPINS, ("leans",) * len(SPINS), key.part)
 
     def kept(kind):
         make = kind.__init__
@@ -204,7 +208,8 @@ def visitor(search):
 
     with (
         set_curdoc(Document()), kept(House), kept(rooms.Rooms), patch("app.page.house.Runs", lambda *session: Runs()),
-        patch.object(rooms.Place, "ask", rooms.Place.fill),
+        patch.object(rooms.Place, "ask", rooms.Place.fill), patch("app.model.lab.lab.ends_once", no_ends),
+        patch("app.tabs.build.verdict.ends_once", no_ends),
     ):  # fmt: skip
         pn.state.location.search = search
         page.page()

@@ -1,18 +1,11 @@
 """A tab in Chromium, on a server that is slow: a click is answered at once, and who leaves ends the work."""
 
-import sys
-from contextlib import contextmanager
-from pathlib import Path
-
 import pytest
 from lab_page import come
-from serving import serving, until
+from serving import served, until
 from visiting import go_to
 
 pytestmark = pytest.mark.served
-
-ROOT = Path(__file__).parent.parent
-SERVE = "\nfrom app.__main__ import run\nrun()"
 
 # The view waits for a file, and the whole server with it; the first map never finishes.
 SLOW = """
@@ -48,14 +41,6 @@ ROWS = """() => {
 }"""
 
 
-@contextmanager
-def broken(code, tmp_path):
-    """A server with this fault."""
-    command = [sys.executable, "-c", code + SERVE]
-    with serving(command, tmp_path / "log", ROOT) as server:
-        yield server
-
-
 @pytest.fixture
 def page(chromium):
     page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
@@ -65,7 +50,7 @@ def page(chromium):
 
 def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromium, page, tmp_path):
     go = tmp_path / "go"
-    with broken(SLOW.replace("GO", repr(str(go))), tmp_path) as server:
+    with served(tmp_path / "log", code=SLOW.replace("GO", repr(str(go)))) as server:
         come(page, f"{server.url}?")
         go_to(page, "Families")
         page.get_by_text("This tab is loading").locator("visible=true").wait_for()  # while the server is blocked

@@ -12,6 +12,7 @@ expect.set_options(timeout=PATIENCE)
 
 FAILURES = Path(__file__).parent / "failures"  # ignored by git
 OWN = r"(data|blob|file|about|chrome-error):|\w+://([\w-]+\.test|localhost|127\.0\.0\.1)(:\d+)?/"  # no other machine
+BLANK = "about:blank"  # of a page that only keeps its context
 ABORTED = "net::ERR_ABORTED"  # a page that is left stops its requests
 LOST = r"(?i)websocket|not connected|net::ERR_|Failed to load resource"  # what a page says whose server does not answer
 
@@ -67,7 +68,7 @@ class Watch:
         folder = FAILURES / re.sub(r"[^\w.-]+", "_", test)[-150:]
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        pages = [page for context in self.browser.contexts for page in context.pages]
+        pages = [page for context in self.browser.contexts for page in context.pages if page.url != BLANK]
         lines = [*self.console, "", *(f"error at {url}: {text}" for url, text in self.errors)]
         for i, page in enumerate(pages):
             lines.append(f"page {i}: {page.url}")

@@ -199,7 +199,7 @@ class LabTab:
         self.view.tell(**changes)
 
     def _state(self, scene):
-        lab, start = self._lab, self._lab.start
+        lab, start, asked = self._lab, self._lab.start, self._asked(scene)
         toy = start.toy
         messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
         dims = dimensions(toy)
@@ -215,13 +215,20 @@ class LabTab:
             "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
             "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), self._old_rolling()),
-            "was": self._differ(scene.start, self._lab.inputs[1]),
-            "wants": self._differ(self._lab.inputs[1], scene.start),
+            "was": self._differ(scene.start, asked),
+            "wants": self._differ(asked, scene.start),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
             "answered": self._answered,
             "busy": lab.busy,
             "reached": lab.reached,
         }
+
+    def _asked(self, scene):
+        """The start that is asked for; the one that is shown if no body has these inertias."""
+        try:
+            return self._lab.inputs[1]
+        except TopError:
+            return scene.start
 
     def _old_rolling(self):
         return "" if self.view.level == LEVELS[0] else spelled(self._rolls)
