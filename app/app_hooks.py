@@ -2,10 +2,11 @@
 
 import asyncio
 
-from app.borrowed import in_one_thread, mend
+from app.borrowed import mend
 from app.kernels import compile_beside
-from app.server.arrivals import most_files
+from app.server.files import most_files
 from app.server.logs import unheard
+from app.server.loop import in_one_thread
 
 
 def on_server_loaded(server_context):
@@ -16,4 +17,4 @@ def on_server_loaded(server_context):
     mend()
     loop = asyncio.get_running_loop()
     loop.set_exception_handler(unheard)
-    in_one_thread(loop, server_context.application_context)
+    in_one_thread(loop)

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import param
 from bokeh.models import CustomJS
+from panel.custom import JSComponent
+from panel.io.resources import component_resource_path
 
-from app.borrowed import Direct
 from app.text import listed
 from app.together import set_together
 
@@ -20,6 +21,11 @@ BUNDLE = Path(__file__).parent / "static" / "tippe.js"
 def pack(values):
     """The values as float32 bytes, row by row, as the array parameters of components need them."""
     return np.asarray(values, "<f4").tobytes()
+
+
+def address_of(kind, path):
+    """The address of a component's file, as Panel says it to the page, so that the browser can request it before."""
+    return f"./{component_resource_path(kind, '_bundle_path', path)}"
 
 
 # It runs a function of frontend/src/figures/callbacks.js: `run` is its name, and `given` its first argument.
@@ -36,7 +42,7 @@ def inlined(path):
     return f"{{\n{path.read_text(encoding='utf-8')}}}"
 
 
-class Bundled(Direct):
+class Bundled(JSComponent):
     """A component whose JavaScript is in the bundle; a common base class, so that a page loads the bundle once."""
 
     texts = param.Dict(default={}, constant=True, doc="Its own words: under SAYS in browser.toml.")

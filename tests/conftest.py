@@ -15,7 +15,7 @@ from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
 from serving import answers, end, redis_serving, until
-from visiting import Visit, draws_coarsely, free_port, launch
+from visiting import Contexts, Visit, free_port, launch
 from watching import Watch
 
 settings.register_profile(
@@ -101,8 +101,9 @@ def redis():
 @pytest.fixture(scope="session")
 def chromium(request):
     with sync_playwright() as playwright:
-        browser = draws_coarsely(launch(playwright))
+        browser = launch(playwright)
         request.config.stash[WATCH] = Watch(browser)
+        Contexts(browser)
         yield browser
         browser.close()
 

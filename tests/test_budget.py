@@ -1,18 +1,26 @@
 """How much processor time a session gets, and whose turn it is."""
 
 import asyncio
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from threading import Thread, get_ident
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from bokeh.document import Document, without_document_lock
 from bokeh.server.session import ServerSession
+from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop
+from tornado.netutil import bind_sockets
+from tornado.web import Application
+from tornado.websocket import WebSocketHandler, websocket_connect
 from wire import run
 
-from app.borrowed import counted, in_one_thread
-from app.server.door import Budget, budget
+from app.model.runs import to_session
+from app.server import sockets
+from app.server.door import Budget
+from app.server.loop import CHARGED, charging, in_one_thread
 from app.server.sockets import Socket
 from app.turns import Turns
 
@@ -68,17 +76,30 @@ def test_what_is_done_for_another_in_the_midst_is_counted_to_him_and_nothing_twi
     assert mine.spent == pytest.approx(13) and his.spent == pytest.approx(2)
 
 
-@pytest.mark.parametrize("how", ["add_next_tick_callback", "add_timeout_callback"])
-def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, monkeypatch):
-    """Panel's handlers of a changed slider do not wait for a lock."""
+class Server:
+    """What to_session() looks at."""
+
+    def __init__(self):
+        self.server_context = self.application_context = self
+        self.io_loop = IOLoop.current()
+
+
+@pytest.mark.parametrize("how", ["add_next_tick_callback", "add_timeout_callback", "a thread"])
+def test_what_a_session_does_later_is_charged_with_the_lock_and_without(how, monkeypatch):
+    """Panel's handlers of a changed slider do not wait for a lock, and runs tell their results from threads."""
     clock = Clock(monkeypatch)
-    monkeypatch.setattr(
-        ServerSession, "_wrap_document_callback", counted(ServerSession._wrap_document_callback, budget)
-    )
+    mine, other = Budget(), Budget()
 
     async def both():
-        in_one_thread(asyncio.get_running_loop(), None)
-        session, done = ServerSession("mine", document := Document(), io_loop=IOLoop.current()), []
+        loop = asyncio.get_running_loop()
+        in_one_thread(loop)
+        loop.set_task_factory(charging)
+        document, done = Document(), []
+        session = ServerSession("mine", document, io_loop=IOLoop.current())
+        server = Server()
+        document._session_context = lambda: server
+        CHARGED.set(mine)
+        post = to_session(document)
 
         @without_document_lock
         async def at_once():
@@ -98,12 +119,67 @@ def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, mon
             done.append(1)
 
         for each in (at_once, locked, plain):
-            getattr(document, how)(each, *([1] if "timeout" in how else []))
+            if how == "a thread":
+                thread = Thread(target=post, args=(each,))
+                thread.start()
+                thread.join()
+            else:
+                getattr(document, how)(each, *([1] if "timeout" in how else []))
+        CHARGED.set(other)
         while len(done) < 3:
             await asyncio.sleep(0.001)
-        return budget(session).spent
+        session.destroy()
 
-    assert run(both()) == pytest.approx(3.1)
+    run(both())
+    assert mine.spent == pytest.approx(3.1) and other.spent == 0
+
+
+def test_what_is_given_to_an_executor_is_done_at_once_in_the_servers_own_thread():
+    """Bokeh 3.10 gives it the callbacks of sessions."""
+    where = []
+
+    async def work():
+        loop = asyncio.get_running_loop()
+        in_one_thread(loop)
+        with ThreadPoolExecutor(1) as thread:
+            for executor in (None, thread):
+                await loop.run_in_executor(executor, lambda: where.append(get_ident()))
+        with pytest.raises(ZeroDivisionError):
+            await loop.run_in_executor(None, lambda: 1 / 0)
+        return get_ident()
+
+    assert {run(work())} == {*where} and len(where) == 2
+
+
+def test_each_frame_of_a_websocket_is_charged(monkeypatch):
+    """A ping, and a message in three frames of which two are empty."""
+    reads = []
+
+    class Handler(WebSocketHandler):
+        _paced, address, _mine = Socket._paced, "here", SimpleNamespace(spend=reads.append, wait=lambda: 0, told=False)
+
+        def __init__(self, *given):
+            super().__init__(*given)
+            stream = self.request.connection.stream
+            stream.read_bytes = self._paced(stream.read_bytes)
+
+        def on_message(self, message):
+            self.write_message(f"{message} after {len(reads)}")
+
+    async def send():
+        server = HTTPServer(Application([("/", Handler)]))
+        [listening] = bind_sockets(0, "127.0.0.1")
+        server.add_socket(listening)
+        client = await websocket_connect(f"ws://127.0.0.1:{listening.getsockname()[1]}/")
+        frames = ((0x89, 0x80, b""), (0x01, 0x81, b"x"), (0x00, 0x80, b""), (0x80, 0x80, b""))
+        for first, mask_and_length, rest in frames:
+            await client.protocol.stream.write(bytes([first, mask_and_length, 0, 0, 0, 0]) + rest)
+        said = await client.read_message()
+        server.stop()
+        return said
+
+    assert run(send()) == f"x after {3 * 4}"
+    assert set(reads) == {sockets.EACH_READ}
 
 
 def test_sessions_are_made_in_turn_among_addresses():
@@ -184,12 +260,14 @@ def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
     socket._answer = nothing
 
     async def ask(times):
+        read = socket._paced(nothing)
         for _ in range(times):
             await socket.on_message("")
-            await socket.pace()
+            for _ in range(3):  # header, mask and content of a frame
+                await read()
 
     run(ask(62))
     assert waited == []
     run(ask(3))
-    assert waited == pytest.approx([0.16, 0.32, 0.48], abs=2e-3)
+    assert waited[::3] == pytest.approx([0.16, 0.32, 0.48], abs=3e-3)
     assert "10.0.0.7 sends more than its share" in caplog.text

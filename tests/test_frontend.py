@@ -267,7 +267,7 @@ def test_a_flat_top_goes_with_the_clock_and_is_saved(flat):
     page.locator(FLAT).wait_for()
 
     def until_at(index):
-        page.wait_for_function("index => __tippe.flat.index == index && __tippe.flat.pictures > 0", arg=index)
+        page.wait_for_function("index => __tippe.flat?.index == index && __tippe.flat.pictures > 0", arg=index)
 
     until_at(23)
     page.get_by_label("One frame forward").click()

@@ -133,7 +133,7 @@ async def ask_of_a_broken_server(here, monkeypatch):
     await page.set(table, "clicks", 3)  # the same file again
     await page.until(lambda: page.now(table, "file")[:2] == [2, before])
 
-    dial, known = page.visitor.group("K_J"), len(page.visitor.models)
+    dial = page.visitor.group("K_J")
     await fails(
         page, monkeypatch, "app.model.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, "K_J", 5.5, False])
     )
@@ -143,8 +143,9 @@ async def ask_of_a_broken_server(here, monkeypatch):
     )
 
     await page.head("room", "families")
-    await page.until(lambda: len(page.visitor.models) > known + 50)
-    start = page.labelled("Button", say("family.map.start", "de"))
+    says = say("family.map.start", "de")
+    await page.until(lambda: any(page.now(each, "label") == says for each in page.visitor.find("Button", "label")))
+    start = page.labelled("Button", says)
     await fails(page, monkeypatch, "app.tabs.families.compare.share_map", lambda: page.click(start))
     await page.click(start)
     await page.vanish()

@@ -12,7 +12,7 @@ from inside import inside
 from serving import until
 from wire import run as run_async
 
-from app.model import runs
+from app.model import pool
 from app.model.maps import kept
 from app.model.maps.maps import Map
 from app.model.maps.solving import solve
@@ -46,7 +46,7 @@ def drawing(monkeypatch, tmp_path):
     monkeypatch.setattr("app.tabs.maps.maps.solve", in_pieces)
     monkeypatch.setattr(kept, "_path", file)
     monkeypatch.setattr(Steady, "show", lambda *given: None)
-    monkeypatch.setattr(runs, "SAY", 0.01)
+    monkeypatch.setattr(pool, "SAY", 0.01)
     kept._memory.clear()
     yield seen, lambda: gate.put(None)
     kept._memory.clear()

@@ -242,6 +242,25 @@ def test_what_would_harm_is_a_sentence(make, code, tmp_path, monkeypatch):
         assert say(f"measure.wrong.{code}", language, **caught.value.numbers)
 
 
+@pytest.mark.parametrize("long", ["(" * 95_000, "t: " * 60_000, "a/ " * 60_000, "a" + " per " * 30_000, "[1" * 90_000])
+def test_a_name_as_long_as_a_file_is_read_in_no_time(long):
+    """What looks for a unit in it took minutes of the server's own thread: this test would not end."""
+    found = read(f"{long},tilt (rad)\n" + "1,0.5\n" * 10)
+    assert len(found.columns[0].name) <= 200 and found.columns[1].quantity == "tilt"
+
+
+def test_a_formula_in_a_column_that_is_used_is_named():
+    with pytest.raises(MeasuredError) as caught:
+        read("t,tilt\n" + "=1+1,0.5\n" * 10)
+    assert (caught.value.code, caught.value.numbers["text"]) == ("not-a-number", "=1+1")
+
+
+def test_of_a_loggers_zip_the_gyroscope_is_read():
+    table = "time,seconds_elapsed,z,y,x\n" + "".join(f"{i}0000000,{i / 100},{100 + i},0,0\n" for i in range(20))
+    found = read(zipped({"Accelerometer.csv": table + table.split("\n", 1)[1], "Gyroscope.csv": table}))
+    assert len(found.lines) == 20 and found.columns[2].quantity == "spin"
+
+
 def test_a_long_table_in_a_file_is_shortened_as_in_the_browser():
     """Its first lines, and of the others those whose number is divisible by n."""
     lines = ["t (s),spin (rad/s)", *(f"{i / 1000:.4f},{100 + i % 7}.25" for i in range(30_000))]

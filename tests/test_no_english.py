@@ -29,8 +29,8 @@ NOT_SAID = {
     **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
     "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
-       for name in ("server.py", "arrivals.py", "ballots.py", "health.py", "logs.py", "messages.py", "pages.py",
-                    "settings.py", "sockets.py")},
+       for name in ("server.py", "arrivals.py", "ballots.py", "desk.py", "files.py", "health.py", "logs.py",
+                    "messages.py", "pages.py", "settings.py", "sockets.py")},
     "widgets/look.js": {"dark large": "a key"},
 }  # fmt: skip
 

@@ -36,11 +36,14 @@ BOXES = """() => {
 
 @pytest.fixture
 def figure(alone):
-    """figure(inputs, high, language, view, **like) gives the Alone with the figure `.view` of a Scene, `.scene`, at
-    rest."""
+    """figure(inputs, high, language, view, found, **like) gives the Alone with the figure `.view` of a Scene, `.scene`,
+    at rest; with an Alone `found`, that one, and the figure in place of the one before."""
 
-    def open_(inputs=(), high=600, language="en", view=(), **like):
-        found = alone(**like)
+    def open_(inputs=(), high=600, language="en", view=(), found=None, **like):
+        if found:
+            found.leave(found.view)
+        else:
+            found = alone(**like)
         found.scene = scene = Explorer(**dict(inputs)).scene
         with speaking(language):
             found.view = PlaneView(height=high, **dict(view))
@@ -82,9 +85,9 @@ def apart(one, other):
 @pytest.mark.parametrize("wide", [360, 570, 1400])
 def test_names_stand_in_the_figure_and_on_no_other(figure, wide, language):
     """On a phone, beside the stage, and over the window; the motion and its limits are always named."""
-    names = listed("roll.plane", language)["names"]
+    names, found = listed("roll.plane", language)["names"], None
     for case, inputs in CASES.items():
-        found = figure(inputs, 560, language, viewport={"width": wide, "height": 700})
+        found = figure(inputs, 560, language, found=found, viewport={"width": wide, "height": 700})
         boxes, said = found.page.evaluate(BOXES), found.page.evaluate("__tippe.plane.names")
         left, top, right, bottom = boxes["whole"]
         for i, box in enumerate(boxes["names"]):
@@ -96,7 +99,6 @@ def test_names_stand_in_the_figure_and_on_no_other(figure, wide, language):
         limited = {*found.scene.plane.slip.limited_by} & {"slip"}
         for name in ("verge", "steady") if limited else ("steady",):
             assert any(text.startswith(bare(names[name][-1])) for text in said), (case, name)
-        found.page.context.close()
 
 
 def bare(text):

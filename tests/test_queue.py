@@ -11,7 +11,7 @@ from patience import PATIENCE
 from serving import until
 from wire import run as run_async
 
-from app.model import cores, runs
+from app.model import cores, pool
 from app.model.runs import WORK, Full, Pool, Run, Runs, Stopped
 from app.text import LANGUAGES, say
 
@@ -19,7 +19,7 @@ from app.text import LANGUAGES, say
 @pytest.fixture(autouse=True)
 def often(monkeypatch):
     """A visitor who has to wait is told at once."""
-    monkeypatch.setattr(runs, "SAY", 0.01)
+    monkeypatch.setattr(pool, "SAY", 0.01)
 
 
 @pytest.fixture

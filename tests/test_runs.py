@@ -21,8 +21,8 @@ from serving import until
 from tornado.ioloop import IOLoop
 from wire import run as run_async
 
-from app.borrowed import in_one_thread
 from app.model.runs import Run, Runs, Stopped, look, to_session
+from app.server.loop import in_one_thread
 from app.text import speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
 
@@ -129,7 +129,7 @@ def test_what_a_thread_tells_is_not_lost_when_the_page_lets_its_changes_go():
     async def told_meanwhile():
         server = BokehTornado({"/app": lambda document: None})
         server.initialize(IOLoop.current())
-        in_one_thread(asyncio.get_running_loop(), server.applications["/app"])
+        in_one_thread(asyncio.get_running_loop())
         session = await server.applications["/app"].create_session_if_needed("mine")
         post, held = to_session(session.document), Pausing(session.document)
 

@@ -3,6 +3,7 @@
 import os
 import sys
 import threading
+import time
 from collections import Counter
 from queue import Queue
 
@@ -188,3 +189,49 @@ def test_a_map_stands_back_with_all_threads_that_it_begins():
     MAPS.add(object(), piece)
     assert done.wait(20)
     assert found == 2 * [min(priority() + NICE, 19)]
+
+
+def test_a_short_map_overtakes_a_long_one_and_both_are_done():
+    """One thread; each look is a piece of work, and the short one comes when the long one has begun."""
+    pool, order, posted, begun = Pool(1, "sliced", slice=0.0), [], Queue(), threading.Event()
+
+    def work(name, looks):
+        def run(run):
+            for _ in range(looks):
+                begun.set()
+                if name == "long":
+                    come.wait(PATIENCE)
+                time.sleep(2 * TURN)
+                run.look()
+                order.append(name)
+
+        return run
+
+    come, long, short = threading.Event(), Runs(posted.put), Runs(posted.put)
+    long.begin(Run(work("long", 20), lambda result: order.append("long is done")), "map", pool)
+    assert begun.wait(PATIENCE)
+    short.begin(Run(work("short", 3), lambda result: order.append("short is done")), "map", pool)
+    come.set()
+    for _ in range(2):
+        posted.get(timeout=PATIENCE)()
+    assert order[-1] == "long is done" and order.index("short is done") < order.index("long is done")
+    assert order.count("long") == 20 and order.index("short") < 4
+    assert not (pool._working or pool._waiting or pool._since or pool._resuming)
+
+
+def test_who_gave_way_and_has_left_ends_when_its_turn_comes():
+    pool, posted, came = Pool(1, "sliced", slice=0.0), Queue(), threading.Event()
+
+    def forever(run):
+        while True:
+            came.set()
+            time.sleep(2 * TURN)
+            run.look()
+
+    page, other = Runs(posted.put), Runs(posted.put)
+    page.begin(Run(forever, lambda result: None), "map", pool)
+    assert came.wait(PATIENCE)
+    other.begin(Run(forever, lambda result: None), "map", pool)
+    page.leave()
+    other.leave()
+    until(lambda: not (pool._working or pool._waiting or pool._resuming))

@@ -2,23 +2,16 @@
 
 import asyncio
 import gzip
-import os
 import re
 import resource
 import signal
-import subprocess
 import sys
 from html import escape
 from http.client import HTTPConnection
 from pathlib import Path
 from types import SimpleNamespace
-from unittest.mock import Mock
 
-import panel.io.document
 import pytest
-from bokeh.document import Document
-from bokeh.document.events import TitleChangedEvent
-from bokeh.protocol import Protocol
 from serving import served, until
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
@@ -243,46 +236,3 @@ def test_who_leaves_while_he_connects_leaves_no_traceback(server):
         run(hasty(until(token).group(1)))
     until(lambda: get(server.url)[0] == 200)
     assert "Traceback" not in server.log
-
-
-async def say_two_things():
-    """What reaches a page of two changes, the second of which comes just after the first has been written."""
-    written, writing, document = [], [], Document()
-
-    def send(text_data):
-        written.append(text_data)
-        writing.append(asyncio.get_running_loop().create_future())
-        return writing[-1]
-
-    connection = Mock(_socket=SimpleNamespace(send=send), protocol=Protocol())
-    for title in ("first", "second"):
-        panel.io.document.schedule_write_events(document, [connection], [TitleChangedEvent(document, title)])
-        if title == "first":
-            await until_true(lambda: writing)
-            for each in writing:
-                each.set_result(None)
-
-    def came():
-        return [title for title in ("first", "second") if any(f'"{title}"' in text for text in written)]
-
-    await until_true(lambda: len(came()) == 2)
-    return came()
-
-
-async def until_true(condition, looks=2000):
-    """Lets the event loop go on until a condition is true, or gives up."""
-    for _ in range(looks):
-        if condition():
-            return
-        await asyncio.sleep(0.001)
-
-
-def test_what_is_said_while_something_else_is_written_comes_too():
-    """In a process of its own: in this one another test may have applied all that is borrowed."""
-    code = ("import asyncio, panel.io.document as document, test_server; from app.borrowed import to_the_last\n"
-            "document._dispatch_msgs = to_the_last(document._dispatch_msgs)\n"
-            "print(asyncio.run(test_server.say_two_things()))")  # fmt: skip
-    tests = Path(__file__).parent
-    done = subprocess.run([sys.executable, "-c", code], cwd=tests, capture_output=True, text=True,
-                          env=os.environ | {"PYTHONPATH": f"{tests}{os.pathsep}{tests.parent}"})  # fmt: skip
-    assert done.stdout.strip() == "['first', 'second']", done.stderr

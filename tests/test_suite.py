@@ -56,6 +56,21 @@ def test_an_error_of_a_page_fails_its_test_and_no_other(chromium, page_errors):
 
 
 @pytest.mark.served
+def test_a_context_that_is_used_again_has_nothing_of_before(chromium):
+    """And a page in it nothing of another page."""
+    keeps = """() => { localStorage.kept ??= "no"; const was = [localStorage.kept, document.cookie, window.name]
+        localStorage.kept = document.cookie = window.name = "kept"; return was }"""
+    for _ in range(2):
+        page = chromium.new_page(locale="fr")
+        page.route("http://kept.test/**", lambda route: route.fulfill(body="<p>here", content_type="text/html"))
+        page.goto("http://kept.test/")
+        assert page.evaluate(keeps) == ["no", "", ""] and page.evaluate(keeps) == ["kept", "kept", "kept"]
+        context = page.context
+        page.close()
+    assert context in chromium.contexts and len(context.pages) == 1
+
+
+@pytest.mark.served
 def test_a_failure_leaves_picture_source_and_console_of_every_page(chromium, page_errors, tmp_path, monkeypatch):
     monkeypatch.setattr("watching.FAILURES", tmp_path)
     page = chromium.new_page()

@@ -30,6 +30,7 @@ class Watch:
         context.on("weberror", lambda error: self._failed(error.page, str(error.error)))
         context.on("requestfailed", self._missed)
         context.on("request", self._asked)
+        context.on("page", lambda page: page.on("load", lambda: self.console.append(f"loaded: {page.url}")))
 
     def _said(self, message):
         self.console.append(f"{message.type}: {message.text}")

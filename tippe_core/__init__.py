@@ -21,6 +21,7 @@ from .motion.grip import grip
 from .motion.many import Many, States, slide_many
 from .motion.nudge import beside, growth, sensitivity
 from .motion.preparing import strongest_friction
+from .motion.pushing import pushed
 from .motion.rolling import Rolling, roll
 from .motion.sliding import slide
 from .motion.smooth import Gliding, glide
@@ -48,7 +49,7 @@ __all__ = [
     "Trajectory", "TruncatedSphere", "Turned", "Viscous", "__version__", "a_from_rocking", "allowed_shares", "ball",
     "beside", "cylinder", "dimension_from_rocking", "ending", "f", "f1_squared", "f2_squared", "f3_squared",
     "friction_force", "frustum", "glide", "grip", "growth", "jellett_potential", "lift_off_and_slip_tielines",
-    "limit_energy", "load_top", "lowest", "normal_force", "omega2", "omega3", "outcome", "pole_constants",
+    "limit_energy", "load_top", "lowest", "normal_force", "omega2", "omega3", "outcome", "pole_constants", "pushed",
     "rocking_period", "roll", "save_top", "sensitivity", "slide", "slide_many", "spinning_modes",
     "steady_precessions", "steady_states", "strongest_friction", "thresholds", "tielines", "tumbling_modes",
     "turning_points", "zone",

@@ -21,8 +21,7 @@ from urllib.parse import urlencode
 import numpy as np
 from panel.custom import JSComponent
 
-from app.borrowed import address_of
-from app.bundle import Bundled, inlined
+from app.bundle import BUNDLE, Bundled, address_of, inlined
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state import opened as room
@@ -95,10 +94,9 @@ def version():
 
 def variables(language):
     """The variables of TEMPLATE; language: that of the page."""
-    address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.name}"
-    bundle = address_of(Bundled)
+    bundle = address_of(Bundled, BUNDLE)
     early = {"language": language, "bundle": bundle, "searches": searches(),
-             "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
+             "numbers": f"{address_of(Numbers, FILE)}?{urlencode({'v': version()})}"}  # fmt: skip
     return {"bundle": bundle, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
             "early_script": EARLY, "borrowed": BORROWED, "family": FAMILY, "waiting": waiting(language)}  # fmt: skip
 

@@ -20,9 +20,9 @@ LAST = 0.2  # s for the last messages to go out
 class Ending:
     """The end of one process. Meanwhile no page is let in: /readyz and the page refuse."""
 
-    def __init__(self, settings, door, arrivals, server):
+    def __init__(self, settings, door, http, server):
         self.code = 0
-        self._settings, self._door, self._arrivals, self._server = settings, door, arrivals, server
+        self._settings, self._door, self._http, self._server = settings, door, http, server
         self._at_once = False
 
     def begin(self, number, _frame=None):
@@ -49,9 +49,7 @@ class Ending:
             if count:
                 await self._wait(apart)
             each.close(1001, text.say("main.server.stopping", text.DEFAULT))
-        self._arrivals.stop()
-        for each in self._arrivals.sockets:
-            each.close()
+        self._http.stop()  # accepts nobody any more
         await asyncio.sleep(LAST)
         self._server.stop(wait=False)
         IOLoop.current().stop()

@@ -26,18 +26,19 @@ from bokeh.settings import settings as bokeh_settings
 from panel.io.application import Application
 from panel.io.session import generate_session
 from panel.io.state import set_curdoc
-from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
 
-from app import VERSION, borrowed
+from app import VERSION
+from app.borrowed import mend
 from app.kernels import compile_beside
 from app.server import health, logs
 from app.server.answers import log_request, routes
-from app.server.arrivals import Arrivals, most_files
 from app.server.board import Board, Watch
-from app.server.door import Door, budget
+from app.server.door import Door
 from app.server.ending import Ending
+from app.server.files import Bounded, most_files
+from app.server.loop import charging, in_one_thread
 from app.server.pages import Page, Sheet
 from app.server.processes import tidier, workers
 from app.server.sockets import LARGEST_FRAGMENT, Socket, note
@@ -63,15 +64,15 @@ def serve(settings, sockets, show, board, parent=None):
     gc.collect()
     gc.freeze()  # what all sessions share stays: looking through it again took a fifth of the making of each
     idle = IDLE_PROXY if settings.proxy else IDLE
-    http = HTTPServer(tornado, xheaders=bool(settings.proxy), max_body_size=LARGEST_FRAGMENT,
-                      max_header_size=32 * 1024, idle_connection_timeout=idle, body_timeout=idle)  # fmt: skip
-    arrivals = Arrivals(http, sockets, most_files())
+    http = Bounded(tornado, xheaders=bool(settings.proxy), max_body_size=LARGEST_FRAGMENT, files=most_files(),
+                   max_header_size=32 * 1024, idle_connection_timeout=idle, body_timeout=idle)  # fmt: skip
     loop = IOLoop.current()
     loop.asyncio_loop.set_exception_handler(logs.unheard)
-    borrowed.in_one_thread(loop.asyncio_loop, tornado.applications["/app"])
+    in_one_thread(loop.asyncio_loop)
+    loop.asyncio_loop.set_task_factory(charging)
     server = BaseServer(loop, tornado, http)
 
-    ending = Ending(settings, tornado.door, arrivals, server)
+    ending = Ending(settings, tornado.door, http, server)
 
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, ending.begin)
@@ -82,7 +83,7 @@ def serve(settings, sockets, show, board, parent=None):
     tornado.watch.start()
     pn.state.add_periodic_callback(lambda: None, 1, count=1)  # Panel's first timer keeps the session that it is made in
     server.start()
-    arrivals.start()
+    http.add_sockets(sockets)
     where = settings.address or "localhost", settings.port, settings.prefix
     log.info("serving http://%s:%d%s/app, version %s", *where, VERSION)
     if settings.show and parent is None:
@@ -100,8 +101,7 @@ def prepared(settings, show):
         with set_curdoc(document):
             show()
 
-    borrowed.mend()
-    borrowed.count(budget)
+    mend()
     application = Application(FunctionHandler(make))
     template = generate_session(application)  # of all pages, made before the first visitor comes
     template.document.callbacks.trigger_event(DocumentReady())

@@ -4,7 +4,6 @@ import asyncio
 import logging
 import time
 import traceback
-from contextlib import suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -16,22 +15,22 @@ from bokeh.server.views.ws import WSHandler
 from bokeh.util.token import check_token_signature, get_session_id, get_token_payload
 from panel.io.resources import LOCAL_DIST, patch_model_css
 from tornado.ioloop import IOLoop
-from tornado.websocket import WebSocketClosedError, WebSocketHandler
+from tornado.websocket import WebSocketHandler
 
 from app import text
 from app.server.answers import Answer
 from app.server.door import SLOW, Budget, budget
 from app.server.logs import refused
+from app.server.loop import CHARGED
 from app.server.messages import Refused, look_at
-from app.server.pieces import pieces_of
 from app.widgets.failure import tell
 
 log = logging.getLogger("tippe")
 
 LARGEST_FRAGMENT = 256 * 1024  # bytes
 MOST_FRAGMENTS = 5  # of one message: header, metadata, content, and one buffer with a header
-# s: the least cost of a message, of one that asks for the whole page, and of a frame, of which a message has about five
-EACH_MESSAGE, WHOLE_PAGE, EACH_FRAME = 0.002, 0.08, 0.0003
+# s: the least cost of a message, of one that asks for the whole page, and of a read, of which each frame takes three
+EACH_MESSAGE, WHOLE_PAGE, EACH_READ = 0.002, 0.08, 0.0001
 
 SOCKETS = 3  # of one session: that of its page, and remains of lost ones
 
@@ -75,6 +74,8 @@ class Socket(Answer, WSHandler):
     def __init__(self, *arguments, **named):
         super().__init__(*arguments, **named)
         self._before = Budget()  # of what comes before its session is there
+        stream = self.request.connection.stream
+        stream.read_bytes = self._paced(stream.read_bytes)
 
     @property
     def address(self):
@@ -124,6 +125,7 @@ class Socket(Answer, WSHandler):
         self.set_nodelay(True)  # a message is three writes and more; the second would wait for the first one's receipt
         app.door.sockets.add(self)
         if session is not None:
+            CHARGED.set(budget(session))
             # Under the lock nothing that the session has to say comes before the greeting.
             await budget(session).steps(session.with_document_locked(self._greet, session))
             return
@@ -132,6 +134,7 @@ class Socket(Answer, WSHandler):
         try:
             if self.ws_connection is not None and not self.ws_connection.is_closing():
                 mine = Budget()
+                CHARGED.set(mine)
                 await mine.steps(self._make(session_id, mine))
         finally:
             turn.done(time.monotonic() - start)
@@ -151,7 +154,10 @@ class Socket(Answer, WSHandler):
         protocol = Protocol()
         self.receiver = Receiver(protocol)
         self.connection = self.application.new_connection(protocol, self, self.application_context, session)
-        await self.send_message(protocol.create("ACK"))
+        if self.ws_connection is None:  # gone meanwhile, and on_close() had no connection to end
+            self.application.client_lost(self.connection)
+        else:
+            await self.send_message(protocol.create("ACK"))
 
     def on_close(self):
         self.application.door.sockets.discard(self)
@@ -177,16 +183,23 @@ class Socket(Answer, WSHandler):
     def _mine(self):
         return self._before if self.connection is None else budget(self.connection.session)
 
-    async def pace(self):
-        """Charges a frame of whatever kind, and lets who sends more than a share wait before the next is read."""
-        mine = self._mine
-        mine.spend(EACH_FRAME)
-        wait = mine.wait()
-        if wait > SLOW and not mine.told:
-            log.warning("%s sends more than its share; it is read more slowly", self.address)
-        mine.told = wait > SLOW
-        if wait:
-            await asyncio.sleep(wait)
+    def _paced(self, read):
+        """The stream's read_bytes(), which reads each part of a frame, also of a ping or of a part of a message: it is
+        charged, and who sends more than a share waits before the next is read."""
+
+        async def read_bytes(*how, **named):
+            data = await read(*how, **named)
+            mine = self._mine
+            mine.spend(EACH_READ)
+            wait = mine.wait()
+            if wait > SLOW and not mine.told:
+                log.warning("%s sends more than its share; it is read more slowly", self.address)
+            mine.told = wait > SLOW
+            if wait:
+                await asyncio.sleep(wait)
+            return data
+
+        return read_bytes
 
     async def on_message(self, fragment):
         if self.ws_connection is None or self.ws_connection.is_closing():
@@ -195,6 +208,7 @@ class Socket(Answer, WSHandler):
             self._refuse(1002, "A message came before the session was open.")
             return
         mine = self._mine
+        CHARGED.set(mine)
         before = mine.spent
         least = await mine.steps(self._take(fragment))
         mine.spend(max(0.0, least - (mine.spent - before)))
@@ -235,9 +249,3 @@ class Socket(Answer, WSHandler):
                 tell(self.connection.session.document)
         if reply and self.connection is not None:
             await self.send_message(reply)
-
-    async def send_message(self, message):
-        """Sends all pieces at once; Bokeh would wait for each, and Panel's messages meanwhile for Bokeh."""
-        pieces = await pieces_of(message)
-        with suppress(WebSocketClosedError):
-            await asyncio.gather(*(WebSocketHandler.write_message(self, *piece) for piece in pieces))

@@ -17,18 +17,36 @@ from app.widgets.failure import attempt
 from app.widgets.forms import Button
 
 AROUND = (24, 28)
+MOST = 12  # parts of the page that are created in one step; each takes some ms
 
 log = logging.getLogger("tippe")
+
+
+def taken_apart(view, most=MOST):
+    """Takes the content out of a view of many parts, and returns functions, each of which puts some of it back."""
+    if not isinstance(view, pn.Column) or len(view.select()) <= most:
+        return []
+    parts, view.objects = [*view.objects], []
+    puts = []
+    for place, part in enumerate(parts):
+
+        def put(place=place, part=part):
+            if list(view.objects) == parts[:place]:  # it has not changed meanwhile
+                view.append(part)
+
+        puts += [put, *taken_apart(part, most)]
+    return puts
 
 
 class Place:
     """The place of a view. name: its name; make: a function that returns the view; add: Pacer.now.
 
-    Views are created in turn among all pages of the server, in two steps: its parts, and then what the browser gets of
-    them. Between the steps, and after them, others are served."""
+    Views are created in turn among all pages of the server, in steps: the view, and then what the browser gets of it,
+    part by part. Between the steps, and after them, others are served."""
 
     def __init__(self, name, make, add):
         self._make, self._add, self._view, self._asked = make, add, None, False
+        self._steps = []  # that are still to be done
         self._failed, self._turn, self._document = False, None, pn.state.curdoc
         self._says = words(self._waiting(), margin=AROUND)
         self.column = pn.Column(
@@ -49,6 +67,7 @@ class Place:
         if self._failed:
             self._failed = False
             self.column.objects = [self._says]
+            self._steps[:0] = [self._begin] if self._steps else []
         self._says.object = self._waiting()
         if self._document is None or self._document.session_context is None:  # no server, so no others
             self._add(self.fill)
@@ -63,7 +82,7 @@ class Place:
     def fill(self):
         """Creates the view now. An error leaves a sentence, and creating it can be tried again."""
         self._asked = True
-        self._attempt(self._create, self._show)
+        self._attempt(self._view_made, self._end)
 
     def _line_up(self):
         self._turn = turns.rooms().ask(self._document, self._come, self._tell)
@@ -85,24 +104,34 @@ class Place:
         if not turn.begin():  # it was not taken up in time
             self._line_up()
             return
-        start, creates = time.monotonic(), self._view is None
+        start = time.monotonic()
         try:
-            if creates:
+            if self._steps:
+                self._add(partial(self._attempt, self._steps[0], self._step_is_done))
+            else:
                 with pn.io.hold():
                     self._attempt(self._create)
-            else:
-                self._add(partial(self._attempt, self._show))
         finally:
-            end = turn.rest if creates and not self._failed else turn.done
+            end = turn.rest if self._steps and not self._failed else turn.done
             end(time.monotonic() - start)
 
     def _tell(self, before):
         self._post(lambda: setattr(self._says, "object", self._waiting(before)))
 
-    def _create(self):
+    def _view_made(self):
         self._view = self._view or self._make()
 
-    def _show(self):
+    def _create(self):
+        self._view_made()
+        self._steps = self._steps or [self._begin, *taken_apart(self._view), self._end]
+
+    def _step_is_done(self):
+        del self._steps[0]
+
+    def _begin(self):
+        self.column.objects = [self._view, self._says]
+
+    def _end(self):
         self.column.objects = [self._view]
 
     def _attempt(self, *steps):

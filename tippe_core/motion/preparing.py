@@ -151,6 +151,11 @@ def gap(P: Record, c: Number, s: Number) -> Number:
     return 1 + P.h * c - P.b * s - P.q
 
 
+def lower(P: Record, theta: float) -> int:
+    """The contact that is on the table if nothing else is said."""
+    return STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
+
+
 @compiled
 def on_table(W: Record, P: Record, i: int) -> None:
     """Sets v_z and z in W.y so that contact i is on the table."""
@@ -159,25 +164,38 @@ def on_table(W: Record, P: Record, i: int) -> None:
 
 
 def start(W: Record, P: Record, state: State) -> tuple[int, bool]:
-    """Sets W.y on the contact that touches at the start, or in flight, and the modes in which the motion continues.
-    Returns the lower contact; False beyond Painleve's limit."""
-    i = STEM if P.stem and gap(P, np.cos(state.theta), np.sin(state.theta)) < 0 else BALL
+    """place(), and the modes in which the motion continues. Returns the lower contact; False beyond Painleve's
+    limit."""
+    i, carries = place(W, P, state)
+    return i, not carries or bool(settle(W.y, (STARTS, i), W.modes, P, W.step, W.contacts))
+
+
+def place(W: Record, P: Record, state: State) -> tuple[int, bool]:
+    """Sets W.y on the contact that touches, or in flight. Returns the lower contact, and whether it carries.
+
+    With z and vz a contact at the table that moves up is open; if the other one is at the table too and does not, that
+    one carries.
+    """
+    i = lower(P, state.theta)
     if state.z is not None:
+        C = W.contacts
         W.y[at.Z], W.y[at.VZ] = state.z, state.vz or 0.0
-        arrange(W.y, NO_ONE, OPEN, OPEN, P, W.contacts)
-        if (above := float(W.contacts.height[i])) < -CLOSED:
+        arrange(W.y, NO_ONE, OPEN, OPEN, P, C)
+        if (above := float(C.height[i])) < -CLOSED:
             raise TopError("z", state.z, "z >= {least:.10g}", least=state.z - above)
-        if above > CLOSED:
-            return i, True
-    return i, bool(started(W, P, i))
+        closed = [j for j in (i, 1 - i)[: 1 + P.stem] if C.height[j] <= CLOSED and C.u[j, 2] <= CLOSED]
+        if not closed:
+            return i, False
+        i = closed[0]
+    on_contact(W, P, i)
+    return i, True
 
 
 @compiled
-def started(W: Record, P: Record, i: int) -> bool:
-    """start() on contact i."""
+def on_contact(W: Record, P: Record, i: int) -> None:
+    """Sets W.y so that contact i is on the table."""
     y = W.y
     e, w, _ = turning(y, P)
     if i == STEM and P.b > 0.0:
         y[:] = leaned(y, e, w)
     on_table(W, P, i)
-    return settle(y, (STARTS, i), W.modes, P, W.step, W.contacts)

@@ -13,6 +13,7 @@ import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
 import { renderLesson } from "./learn/lesson.js";
 import { renderSteps } from "./learn/steps.js";
+import { timeOf, topsOf } from "./motion/clock.js";
 import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
@@ -38,6 +39,7 @@ import { renderSaid } from "./widgets/said.js";
 import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
+window.__tippe = { time: timeOf, tops: topsOf }; // for tests only: there before any component is
 
 // Panel finds a component by the name of its Python class.
 export default {

@@ -15,7 +15,8 @@ from app.text import listed, say
 OF_CONTACTS = ("stem", "off", "flat", "flies", "ends")
 """Events of the story that are listed as those of its contacts."""
 MOST = 16
-SHORT = 0.05  # s: a touch or hop that is too short to be seen
+SHORT, RATTLE = 0.05, 0.1  # s: a grip, and a touch or hop, that is too short to be seen
+GRIPS, HOPS = {"sticks", "slips"}, {"lifts off", "lands"}
 ON = {"both": "both", "stem": "stem", "none": "air"}
 
 
@@ -53,25 +54,36 @@ def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
 
 
 def _touches(motion: TableMotion, unit: float, part: str) -> list[tuple[float, str]]:
-    """The events of its contacts; of series that are too fast to be seen only the first event, and the number of the
-    others. That it sticks for good is told as the table's grip."""
+    """The events of its contacts; those that follow each other too fast to be seen are one series. That it sticks for
+    good is told as the table's grip."""
     happens = [(unit * t, event) for t, event in motion.trajectory.events]
     grips = motion.cuts.get("rolls", np.inf)
     last_slip = max((t for t, event in happens if event == "slips" and t < grips), default=0.0)
-    events = [(t, say(f"planes.events.{event}", part=part)) for t, event in happens
-              if not (event == "sticks" and last_slip <= t <= grips < np.inf)]  # fmt: skip
-    found: list[tuple[float, str]] = []
-    last, more = -np.inf, 0
-    for t, word in [*events, (np.inf, "")]:
-        if t - last < SHORT:
-            more += 1
+    series: list[list[tuple[float, str]]] = []
+    for t, event in happens:
+        if event == "sticks" and last_slip <= t <= grips < np.inf:
+            continue
+        if series and _continues(series[-1], t, event):
+            series[-1].append((t, event))
         else:
-            if more:
-                found[-1] = found[-1][0], say("planes.moments.more", word=found[-1][1], number=more, end=last)
-            more = 0
-            found.append((t, word))
-        last = t
-    return found[:-1]
+            series.append([(t, event)])
+    return [(each[0][0], _word(each, part)) for each in series]
+
+
+def _continues(series: list[tuple[float, str]], t: float, event: str) -> bool:
+    """Whether an event is one more of a series: of grips, or of touches, between which it may stick and slip."""
+    of_grips = series[0][1] in GRIPS
+    belongs = (event in GRIPS) == of_grips or (not of_grips and len(series) > 1)
+    return belongs and t - series[-1][0] < (SHORT if of_grips else RATTLE)
+
+
+def _word(series: list[tuple[float, str]], part: str) -> str:
+    """One event, or a series of them, in words."""
+    if len(series) == 1:
+        return say(f"planes.moments.events.{series[0][1]}", part=part)
+    events = {event for _, event in series}
+    kind = "grips" if events <= GRIPS else "hops" if events <= GRIPS | HOPS else "rattles"
+    return say(f"planes.moments.series.{kind}", part=part, end=series[-1][0])
 
 
 def _after(motion: TableMotion, t: float, part: str) -> str:

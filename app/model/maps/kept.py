@@ -9,7 +9,8 @@ computes these anew, after a change of the physics; a test compares some of thei
 import hashlib
 import threading
 from collections import OrderedDict
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -25,6 +26,7 @@ SHIPPED = {Map(): DATA / "map.npz", Map(body="The paper's tippe top"): DATA / "m
 IN_MEMORY, AS_FILES = 64, 100_000_000  # maps; bytes, of which one of 48 x 48 cells takes some 80,000
 _folder: Path | None = None
 _memory: OrderedDict[Map, Level] = OrderedDict()
+_claimed: set[Map] = set()  # those that are being computed
 _changing = threading.Lock()
 
 
@@ -32,6 +34,19 @@ def keep_in(folder: Path) -> None:
     """From now on maps are stored in this folder too."""
     global _folder
     _folder = folder
+
+
+@contextmanager
+def claimed(asked: Map) -> Iterator[bool]:
+    """Context in which nobody else computes this map; gives whether that is so, or somebody else does already."""
+    with _changing:
+        mine = asked not in _claimed
+        _claimed.add(asked)
+    try:
+        yield mine
+    finally:
+        if mine:
+            _claimed.discard(asked)
 
 
 def recall(asked: Map) -> Level | None:

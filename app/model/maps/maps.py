@@ -18,6 +18,7 @@ OWN = ""  # the name that stands for a body that is not one of tippe_core.PRESET
 LAWS = ("coulomb", "viscous", "smoothed", "contensou")
 COLOURS_BY = ("end", "time_90", "theta_end", "F_z_least", "flew", "heat", "hops", "growth")
 MOST_CELLS, MOST_SECONDS = 96, 60.0
+MOST_WORK = 48 * 48 * 60.0  # s in all cells: some ten times a usual map, or 96 x 96 cells of 15 s
 FIRST = 8  # cells along each side of the first, coarse level
 NUDGE = 1e-6  # rad
 
@@ -112,6 +113,9 @@ class Map:
             raise TopError("seconds", self.seconds, f"0 < seconds <= {MOST_SECONDS:g} (s)")
         if self.cells not in range(3, MOST_CELLS + 1, 3):
             raise TopError("cells", self.cells, f"3, 6, 9, ... {MOST_CELLS}")
+        if self.cells**2 * self.seconds > MOST_WORK:
+            most = 3 * int((MOST_WORK / self.seconds) ** 0.5 / 3)
+            raise TopError("cells", self.cells, f"cells <= {most}, cells^2 seconds <= {MOST_WORK:g} (s)")
 
     def _check_possible(self, name: str) -> None:
         if name not in QUANTITIES:

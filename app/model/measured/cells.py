@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.model.measured.names import NUMBER, is_run, is_unit
+from app.model.measured.names import NUMBER, is_run, is_unit, understood
 from app.model.measured.unpack import COLUMNS, FEWEST, MOST
 from app.text import say
 from tippe_core.types import Array
@@ -24,6 +24,8 @@ _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:(?:\.\d{3})+,\d+|(?:,\d{3})+\.\d+|(?:\.
 _CLOCK = re.compile(r"(?:[\d.-]{8,10}[T ]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d\d(?:[.,]\d*)?)"
                     r"\s*(?:Z|[+-]\d\d:?\d\d|([AP])M)?", re.A | re.I)  # fmt: skip
 DAY = 86400.0
+LETTERS = 200
+"""Of a column's name, so that what looks into it takes no time that grows with a file."""
 
 
 class MeasuredError(ValueError):
@@ -34,7 +36,7 @@ class MeasuredError(ValueError):
         self.code, self.numbers = code, numbers
 
     def __str__(self) -> str:
-        return f"{self.code}: {say(f'measure.wrong.{self.code}', **self.numbers)}"
+        return f"{self.code}: {say(f'measure.wrong.{self.code}', None, **self.numbers)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,11 +70,11 @@ def cells_of(text: str) -> Cells:
     width = len(rows[first][1])
     if width > COLUMNS:
         raise MeasuredError("columns", count=width, most=COLUMNS)
-    heads = [_without_end(cells, width) for _, cells in rows[:first]]
+    heads = [[cell[:LETTERS] for cell in _without_end(cells, width)] for _, cells in rows[:first]]
     heads = [cells for cells in heads if len(cells) == width]
     if not heads:  # they may stand in a comment, as MATLAB and numpy write them
-        above = [_cells(_COMMENT.sub("", line, count=1), between) for number, line in all_lines
-                 if number < rows[first][0] and _COMMENT.match(line)]  # fmt: skip
+        above = [[cell[:LETTERS] for cell in _cells(_COMMENT.sub("", line, count=1), between)]
+                 for number, line in all_lines if number < rows[first][0] and _COMMENT.match(line)]  # fmt: skip
         heads = [cells for cells in above if len(cells) == width and not _is_data(cells)]
     if first and not heads and len(rows[first - 1][1]) > 1:
         raise MeasuredError("width", line=rows[first][0], found=width, expected=len(rows[first - 1][1]))
@@ -216,7 +218,7 @@ def _table(names: list[str] | None, rows: list[Row], between: str, whole: bool =
         raise MeasuredError("rows", rows=len(rows), least=FEWEST, most=MOST)
     _check_decimals(rows)
     for i in range(width):
-        if not any(_is_number(cells[i]) for _, cells in rows):  # of words: nothing was measured there
+        if not understood(names[i])[0] and not any(_is_number(cells[i]) for _, cells in rows):  # of words
             for _, cells in rows:
                 cells[i] = ""
     values = np.array([[_value(cell, number, name) for cell, name in zip(cells, names, strict=True)]

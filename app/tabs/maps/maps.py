@@ -8,7 +8,7 @@ import panel as pn
 
 from app.model.maps.body import outline_of
 from app.model.maps.choice import AT, MapChoice
-from app.model.maps.kept import keep, recall
+from app.model.maps.kept import claimed, keep, recall
 from app.model.maps.lines import disagreements, lines
 from app.model.maps.maps import OWN, QUANTITIES, Map, of_page
 from app.model.maps.solving import run as one_run
@@ -31,6 +31,7 @@ from tippe_core import TopError
 
 MAP = Map()
 PICTURE_EVERY = 0.3  # s
+OTHERS = 0.3  # s between two looks for a map that is being computed for another page
 PART = {"min-width": "0"}
 # On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
 ROOM = """
@@ -204,17 +205,23 @@ class Maps:
         return place if inside else [(low + high) / 2 for low, high in spans(asked)]
 
     def _work(self, asked, run):
-        level = recall(asked)
-        shown = 0.0
-        if level is None:
-            for level in solve(asked, run.look):
-                # messages only now and then: on a slow line more would queue up
-                if level.whole or time.monotonic() > shown + PICTURE_EVERY:
-                    shown = time.monotonic()
-                    self._runs.post(partial(self._show_part, run, level.copy(), run.reached))
-            keep(level)
+        while (level := recall(asked)) is None:
+            with claimed(asked) as mine:
+                if mine:
+                    self._compute(asked, run)
+                    continue
+            run.wait(OTHERS)
         lines(asked)
         return level, disagreements(level)
+
+    def _compute(self, asked, run):
+        shown = 0.0
+        for level in solve(asked, run.look):
+            # messages only now and then: on a slow line more would queue up
+            if level.whole or time.monotonic() > shown + PICTURE_EVERY:
+                shown = time.monotonic()
+                self._runs.post(partial(self._show_part, run, level.copy(), run.reached))
+        keep(level)
 
     def _show_part(self, run, level, share):
         if run is self._run and not run.stopped:

@@ -14,6 +14,9 @@ const leaderOf = (name) => on(name).find(({ inView, player }) => inView() && pla
 /** The time of a clock, 0 if no top is on it. @param {string} clock */
 export const timeOf = (clock = "") => leaderOf(clock)?.player.t ?? 0;
 
+/** The reports of the tops of a clock, for tests. @param {string} clock */
+export const topsOf = (clock) => on(clock).map((place) => place.report);
+
 /** Pictures of the tops that are visible, together `wide` px wide. @param {number} wide */
 export function photosOf(wide) {
   const seen = [...clocks.values()].flat().filter(({ isSeen }) => isSeen);
@@ -63,8 +66,6 @@ export class Place {
     };
     window.addEventListener("tippe:command", onCommand, { signal });
     clocks.set(this.name, [...on(this.name), this]);
-    window.__tippe ??= {}; // for tests only
-    Object.assign(window.__tippe, { time: timeOf, tops: (clock) => on(clock).map((place) => place.report) });
   }
 
   get suffix() {

@@ -158,7 +158,6 @@ export class PlaneFigure {
   // For tests: what is shown, and where.
   report() {
     const figure = this, { picture, drawing } = this;
-    window.__tippe ??= {};
     window.__tippe.plane = {
       bar: picture.chosen.parts.bar,
       get pictures() { return figure.pictures; },

@@ -191,7 +191,7 @@ export class Surface {
     for (const name of ["selected", "selected_curve"]) model.on(name, onSelected);
     this.update();
     const report = reportOf(this);
-    (window.__tippe ??= {}).surface3d = report;
+    window.__tippe.surface3d = report;
     return () => {
       for (const later of [onData, onSelected]) later.cancel();
       hand.forget();
