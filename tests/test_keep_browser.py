@@ -203,9 +203,12 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     spans = """() => [...Bokeh.documents.flatMap((d) => [...d._all_models.values()])]
         .filter((m) => m.type == "Span" && m.level == "overlay")"""
     mailed.get_by_role("button", name="Pause").click()
-    mailed.wait_for_function(f"() => ({spans})().every((m) => Math.abs(m.location - __tippe.tops('lab')[0].t) < 1e-9)")
-    shown = mailed.evaluate("""() => Array.from([...Bokeh.documents.flatMap((d) => [...d._all_models.values()])]
-        .find((m) => m.name == "theta" && m.renderers).renderers[0].data_source.data.theta)""")
-    assert np.array_equal(shown, scene.trajectory.theta[::2])
+    follows = "Math.abs(m.location - unit * __tippe.tops('lab')[0].t) < 1e-9"
+    mailed.wait_for_function(f"unit => ({spans})().every((m) => {follows})", arg=scene.scales.time)
+    shown = mailed.evaluate("""() => Bokeh.documents.flatMap((d) => [...d._all_models.values()])
+        .find((m) => m.name == "times-theta" && m.renderers).renderers
+        .map(({ data_source }) => Array.from(data_source.data.theta ?? [])).find((theta) => theta.length)""")
+    theta = np.degrees(scene.trajectory.theta)
+    assert [min(shown), max(shown), shown[0]] == pytest.approx([theta.min(), theta.max(), theta[0]], abs=1e-2)
     assert [url for url in asked if not re.match("(file|blob|data):", url)] == []
     context.close()
