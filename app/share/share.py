@@ -46,13 +46,13 @@ class Share(param.Parameterized):
     keep: the page's Keep; playing: its Playing; scene: the first one; runs: the page's Runs; shown: returns the
     saved_runs.Shown of the tables that are shown; busy: whether others are being computed; settle: solves the scene of
     the present inputs, if that was postponed; body: returns the body of the page's top; sheet: returns the worksheet
-    for a class. show() is for the scene of a hand at rest.
+    for a class, of a Scene. show() is for the scene of a hand at rest.
     """
 
     is_open = param.Boolean(default=False)
 
     def __init__(self, keep, playing, scene, runs=None, shown=list, busy=bool, settle=bool, body=lambda: None,
-                 sheet=str):  # fmt: skip
+                 sheet=lambda scene: ""):  # fmt: skip
         super().__init__()
         self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
         self._shown, self._busy, self._settle, self._body, self._sheet = shown, busy, settle, body, sheet
