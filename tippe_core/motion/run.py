@@ -32,7 +32,6 @@ STIFF_DIRECTION = 10.0  # if beta relaxes so many times faster than log|u| chang
 NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin at which a patch may come to rest, if the tolerance is smaller
 
 
-@compiled
 def run(
     W: Record, P: Record, log: Array, times: Array, rows: Array, end: float, flies: bool, hands_over: bool, steps: int
 ) -> int:
