@@ -19,7 +19,7 @@ server process ("one"), to two ("two"), and to the bare app ("bare") come
     memory    MB of the server: a session that came and looks, one that moves a slider, and after all have left
 
 Two more look at what one visitor takes of another, with one server process. Beside a crowd (crowd.py, a process of its
-own with a low priority) one visitor moves a slider each 0.3 s, and /liveness is asked each 0.1 s:
+own) one visitor moves a slider each 0.3 s, and /liveness is asked each 0.1 s:
 
     rooms     20 and then 100 pages all open one room after the other at the same moment; and ten pages that each open
               another one every 2 s
