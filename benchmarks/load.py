@@ -281,13 +281,20 @@ class Beside:
         await self.mover.visitor.ready()
         await asyncio.sleep(3)
         self.alive = []
-        self._tasks = [asyncio.create_task(each) for each in (self.mover.act(3600, 0, 0.3), self._look())]
+        self._tasks = [asyncio.create_task(each) for each in (self._move(), self._look())]
         return self
 
     async def __aexit__(self, *error):
         for task in self._tasks:
             task.cancel()
         await self.mover.leave()
+
+    async def _move(self):
+        while not self.mover.lost:
+            await self.mover.move(0)
+            while self.mover.moved is not None and not self.mover.lost:
+                await asyncio.sleep(0.005)
+            await asyncio.sleep(0.3)
 
     async def _look(self):
         while True:
