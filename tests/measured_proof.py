@@ -131,9 +131,10 @@ def lines(rows):
         if some := [row for row in rows if row["how"] == name]:
             yield f"| {name or 'plain'} | {' | '.join(_cells(some))} |"
     gave_up = [row for row in rows if row["given_up"]]
-    changed = sum(row["said"] != row["anyway"] for row in gave_up)
+    unsure = sum(row["anyway"] == "unsure" != row["said"] for row in gave_up)
     yield ""
-    yield f"A model was given up of {len(gave_up)} films. Searched to its end, it changes {changed} of their verdicts."
+    yield (f"A model was given up of {len(gave_up)} films. A search to its end says something else of "
+           f"{len(changed(rows))} of them, and of {unsure} only that it may not have found the best fit.")  # fmt: skip
 
 
 def _cells(rows):
@@ -148,6 +149,11 @@ def _cells(rows):
 def right(row):
     """The verdict that is true of it."""
     return "rolled" if row["kind"] == "rolling" else "slipped"
+
+
+def changed(rows):
+    """The films of which a search to the end says something else, and not only that it is unsure."""
+    return [row["seed"] for row in rows if row["anyway"] not in (row["said"], "unsure")]
 
 
 def false(rows):

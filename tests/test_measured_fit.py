@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import sliding_body as sb
 from measured_bodies import LOSSES, LOSSY, case, film, off_truth, other_value, recovered
-from measured_proof import ALL, go_on, share_within_two
+from measured_proof import ALL, changed, false, go_on, share_within_two
 from measured_proof import kept as kept_films
 
 from app.model.measured import fit as search
@@ -50,6 +50,7 @@ def test_the_truth_is_recovered_of_many(request):
     rows = go_on(ALL)
     share, known = share_within_two(rows)
     assert 0.92 <= share <= 0.98 and known > 600
+    assert not false(rows) and not changed(rows)
     assert all(value is not None for row in rows for value in row["unknown"].values())
     assert not any(row["refused"] for row in rows)
 
@@ -59,6 +60,7 @@ def test_the_films_that_were_asked_of_have_the_truth_where_they_say():
     rows = list(kept_films().values())
     share, known = share_within_two(rows)
     chance = 2 * np.sqrt(0.05 * 0.95 / known)  # of so few
+    assert not false(rows) and not changed(rows)
     assert len(rows) >= 20 and 0.92 - chance <= share <= 0.98 + chance and known > 3 * len(rows)
     assert all(value is not None for row in rows for value in row["unknown"].values())
 
