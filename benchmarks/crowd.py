@@ -1,5 +1,5 @@
-"""A crowd for load.py, in a process of its own with a low priority: pages that open rooms together, or that send as
-fast as they can. It writes a line when all have come, and acts on each line that it is given: the name of a room, which
+"""A crowd for load.py, in a process of its own: pages that open rooms together, or that send as fast as they can, with
+a low priority. It writes a line when all have come, and acts on each line that it is given: the name of a room, which
 all then open, or a way of being greedy. After a room it writes how long each page waited for it, s."""
 
 import asyncio
@@ -78,11 +78,11 @@ async def main(url, people):
     print("here", flush=True)
     while word := (await asyncio.to_thread(sys.stdin.readline)).strip():
         if word in GREEDY:
+            os.nice(NICE)
             await asyncio.gather(*(getattr(each, word)() for each in crowd), return_exceptions=True)
             await asyncio.sleep(3600)
         print(json.dumps(await asyncio.gather(*(each.open(word) for each in crowd))), flush=True)
 
 
 if __name__ == "__main__":
-    os.nice(NICE)
     asyncio.run(main(sys.argv[1], int(sys.argv[2])))

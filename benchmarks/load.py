@@ -19,7 +19,7 @@ server process ("one"), to two ("two"), and to the bare app ("bare") come
     memory    MB of the server: a session that came and looks, one that moves a slider, and after all have left
 
 Two more look at what one visitor takes of another, with one server process. Beside a crowd (crowd.py, a process of its
-own with a low priority) one visitor moves a slider each 0.3 s, and /liveness is asked each 0.1 s:
+own) one visitor moves a slider each 0.3 s, and /liveness is asked each 0.1 s:
 
     rooms     20 and then 100 pages all open one room after the other at the same moment; and ten pages that each open
               another one every 2 s
@@ -281,13 +281,20 @@ class Beside:
         await self.mover.visitor.ready()
         await asyncio.sleep(3)
         self.alive = []
-        self._tasks = [asyncio.create_task(each) for each in (self.mover.act(3600, 0, 0.3), self._look())]
+        self._tasks = [asyncio.create_task(each) for each in (self._move(), self._look())]
         return self
 
     async def __aexit__(self, *error):
         for task in self._tasks:
             task.cancel()
         await self.mover.leave()
+
+    async def _move(self):
+        while not self.mover.lost:
+            await self.mover.move(0)
+            while self.mover.moved is not None and not self.mover.lost:
+                await asyncio.sleep(0.005)
+            await asyncio.sleep(0.3)
 
     async def _look(self):
         while True:

@@ -133,7 +133,8 @@ def alone(chromium):
 def lab(alone, monkeypatch):
     """lab(start={}, **like) gives the Alone with the view of a Lab, `.lab`, which is that of the arrival but for this
     start. It is at rest; after that no hand is."""
-    monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: None)
+    for module in ("tabs.lab.lab", "widgets.rest"):
+        monkeypatch.setattr(f"app.{module}.after", lambda seconds, act: None)
 
     def open_(start=(), **like):
         found = alone(**like)

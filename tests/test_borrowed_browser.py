@@ -164,7 +164,7 @@ def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
 
 
 def test_a_place_of_a_figure_is_where_its_scales_say(bare):
-    """4. Each corner of the frame, compared with Bokeh's own events, which are public."""
+    """3. Each corner of the frame, compared with Bokeh's own events, which are public."""
     bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")
     left, top = bare.evaluate("() => { const { left, top } = over.getBoundingClientRect(); return [left, top] }")
     bare.evaluate("() => fig.on_event('mousemove', ({ x, y }) => { window.told = [x, y] })")
@@ -178,7 +178,7 @@ def test_a_place_of_a_figure_is_where_its_scales_say(bare):
 
 
 def test_what_hears_the_mouse_has_its_cursor(bare):
-    """5. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
+    """4. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
     bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.heard = true })")
     bare.mouse.click(200, 150)
     assert bare.evaluate("() => window.heard")
@@ -189,7 +189,7 @@ def test_what_hears_the_mouse_has_its_cursor(bare):
 
 
 def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
-    """6."""
+    """5."""
     bare.evaluate(
         "() => { window.heard = []; for (const name of ['press', 'panstart'])"
         " fig.on_event(name, () => window.heard.push(name)) }"
@@ -255,12 +255,12 @@ def space(chromium):
 
 
 def test_a_target_has_the_colours_of_a_screen(space):
-    """7."""
+    """6."""
     assert space.evaluate("() => window.pixel(true).bytes")[0] == 128
     assert space.evaluate("() => window.pixel(false).bytes")[0] < 80  # linear; else not needed
 
 
 def test_webgl_finds_what_three_has_drawn(space):
-    """8."""
+    """7."""
     found = space.evaluate("() => window.pixel(true)")
     assert found["buffer"] and found["same"] == found["bytes"] and found["same"][0] == 128

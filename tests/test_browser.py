@@ -182,7 +182,7 @@ def test_three_tables_side_by_side_go_by_one_clock(chromium, server):
                 arg=[label, moved.quaternion[-1].tolist()],
             )
         page.wait_for_function(
-            f"t => {MODELS}.filter((m) => m.type == 'Span' && Math.abs(m.location - t) < 1e-4).length == 6",
+            f"t => {MODELS}.filter((m) => m.type == 'Span' && Math.abs(m.location - t) < 1e-4).length == 7",
             arg=40.0 * unit,
         )
         shown = page.evaluate(COLUMN, ["times-theta", "theta"])

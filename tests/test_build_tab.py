@@ -12,7 +12,6 @@ from app.model.build.dimensions import FAMILIES, INSIDES, changed, sentence, val
 from app.model.build.inside import filled, inside
 from app.model.build.verdict import Verdict, verdict
 from app.model.explorer import Explorer
-from app.model.run import TooLong
 from app.model.runs import Full, Runs, Stopped
 from app.tabs.build.build import Build
 from app.tabs.build.verdict import VerdictWords
@@ -185,11 +184,11 @@ def test_the_verdict_is_that_of_the_run():
 
 def test_a_body_that_cannot_be_let_go_so_has_a_verdict_that_says_so(monkeypatch):
     def never(*start):
-        raise TooLong
+        raise TopError("mu", 0.3, "mu < 0.2", "More friction than that no normal force balances.", code="too-strong")
 
     monkeypatch.setattr("app.model.build.verdict.whole_on", never)
     found = verdict(PRESETS[0].shape)
-    assert found.code == "refused" and "could not be computed" in found.headline and "catches and slips" in found.why
+    assert found.code == "refused" and "could not be computed" in found.headline and "mu < 0.2" in found.why
 
 
 def test_the_words_beside_the_body_are_of_that_body():

@@ -39,17 +39,18 @@ def motion(scene):
 def test_csv_is_the_motion_to_the_last_digit(scene, motion):
     file = export.motion_csv(scene, LINK)
     table = pd.read_csv(io.BytesIO(file), comment="#")
-    assert np.array_equal(table["theta"], motion.theta)
-    assert np.array_equal(table[[f"quaternion_{axis}" for axis in "xyzw"]], motion.quaternion)
-    assert np.array_equal(table[["contact_x", "contact_y"]], motion.contact)
-    assert np.array_equal(table[["omega_1", "omega_2", "omega_3"]], motion.omega)
-    assert np.array_equal(table[["force_x", "force_y", "force_z"]], motion.force)
+    assert np.array_equal(table["theta (rad)"], motion.theta)
+    assert np.array_equal(table[[f"quaternion_{axis} (1)" for axis in "xyzw"]], motion.quaternion)
+    assert np.array_equal(table[["x (R)", "y (R)"]], motion.contact)
+    assert np.array_equal(table[[f"omega_{i} ((g/R)^1/2)" for i in "123"]], motion.omega)
+    assert np.array_equal(table[[f"force_{axis} (Mg)" for axis in "xyz"]], motion.force)
     said = [line[2:] for line in file.decode().splitlines() if line.startswith("# ")]
     for line in ("K_J = 6.5 (g/R)^1/2", "mu_s = 0.4", "I1 = 0.399 MR^2", "M = 0.0115 kg", "g = 9.81 m/s^2", LINK,
                  "t: time, in (R/g)^1/2 = 0.0403855 s"):  # fmt: skip
         assert line in said
     for column in table.columns:
-        assert any(line.startswith(re.sub("_[xyzw123]$", "", column) + ":") for line in said)
+        name = re.sub("_[xyzw123]$", "", column.split(" (")[0])
+        assert any(line.startswith({"x": "contact", "y": "contact"}.get(name, name) + ":") for line in said)
 
 
 def test_csv_of_the_tielines_is_fig_6(scene):

@@ -7,7 +7,6 @@ from limits import limit
 from app.model.explorer import Explorer
 from app.model.families.family import region, share_map
 from app.tabs.families.compare import Compare
-from app.widgets.typeset import typeset
 from tippe_core import (
     Top,
     allowed_shares,
@@ -172,4 +171,5 @@ def test_a_map_stops_when_told_and_refuses_what_cannot_be(explorer, monkeypatch)
         compare = Compare(explorer.scene)
         compare.entries[name].value = text
         compare.compute()
-        assert typeset(name) in compare.said.object and not compare.start.disabled
+        why, _, back = compare.entries[name].wrong
+        assert name in why and float(back) >= 0 and not compare.start.disabled

@@ -148,7 +148,8 @@ def test_a_picture_and_what_is_kept_of_it_go_together_both_ways():
 
 @pytest.fixture
 def pacer(monkeypatch):
-    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: None)
+    for module in ("pacing", "rest"):
+        monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, then: None)
     return Pacer(Explorer())
 
 
@@ -163,7 +164,8 @@ def test_what_shows_a_scene_shows_the_present_one_at_once(pacer):
 def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
     """Not between the steps of a drag that continues."""
     timers, shown = [], []
-    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, act: timers.append(act))
+    for module in ("pacing", "rest"):
+        monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, act: timers.append(act))
     pacer.shows(lambda scene: shown.append(scene.constants.K_J), "still")
     pacer.begin()
     timers.clear()
@@ -171,7 +173,7 @@ def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
 
     def rest():
         """Runs all timers that were set, as when a person stops moving."""
-        pacer._requested -= 1  # as if long ago
+        pacer._rest._last -= 1  # as if long ago
         due, timers[:] = timers[:], []
         for act in due:
             act()

@@ -180,8 +180,8 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
         return path
 
     table = pd.read_csv(save("Data", "CSV"), comment="#")
-    assert np.array_equal(table["theta"], scene.trajectory.theta)
-    assert np.array_equal(table["K_J"], scene.K_J)
+    assert np.array_equal(table["theta (rad)"], scene.trajectory.theta)
+    assert np.array_equal(table["K_J ((g/R)^1/2)"], scene.K_J)
     with np.load(save("Data", "NumPy")) as arrays:
         assert np.array_equal(arrays["slip_theta_inner"], scene.plane.slip.theta_inner)
     figure = save("Fig. 6: which motions roll", "SVG").read_text(encoding="utf-8")

@@ -53,7 +53,7 @@ def test_the_arrival_turns_over_stands_and_falls_when_compliant_contacts_say(lab
 
 def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
     """The numbers are float32, and another processor may differ in the last digit."""
-    kept, (_, fresh) = arrival.read(TOYS[TOY].top), lived(start_of(*ARRIVAL[1:]), lambda: lambda reached: None)
+    kept, (fresh, *_) = arrival.read(TOYS[TOY].top), lived(start_of(*ARRIVAL[1:]))
     for name in ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "velocity", "heat"):
         assert getattr(kept, name) == pytest.approx(getattr(fresh, name), abs=2e-4), name
     until = 4.75 / SHAPE.scales.time  # then ever smaller bounces, whose number depends on rtol
@@ -62,7 +62,7 @@ def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
         assert [each[1] for each in ours] == [each[1] for each in theirs]
         assert [each[0] for each in ours] == pytest.approx([each[0] for each in theirs], abs=1e-3)
     motion_on.cache_clear()
-    monkeypatch.setattr(run, "slid", None)  # nothing is computed for it
+    monkeypatch.setattr(run, "life_of", None)  # nothing is computed for it
     assert motion_on("ordinary", start_of(*ARRIVAL[1:])).trajectory.theta.tolist() == kept.theta.tolist()
     motion_on.cache_clear()
 
@@ -148,7 +148,7 @@ def test_a_life_goes_on_until_it_rolls_and_ends_leaning_with_no_spin_about_the_v
 def test_its_rows_are_fewer_and_the_motion_is_that_of_all_of_them():
     """Between two rows the top moves so little that linear interpolation gives its true position."""
     start = start_of(*ARRIVAL[1:])
-    seconds, few = lived(start, lambda: lambda reached: None)
+    few, seconds, _ = lived(start)
     times = np.linspace(0, seconds / start.scales.time, 8001)
     every = slide(start.top, start.state, start.friction, times, edge=start.edge)
     assert len(few.t) < 1600

@@ -111,12 +111,12 @@ def test_the_patch_is_the_tables(lab):
 
 def test_a_life_that_is_longer_than_what_is_computed_says_so(monkeypatch):
     whole = whole_on("ordinary", start_of(*ARRIVAL[1:]))
-    assert not whole.is_cut and "computed only up to" not in story(whole).stages[-1].why
+    assert not whole.cut and "computed only up to" not in story(whole).stages[-1].why
     monkeypatch.setattr(life, "MOST_ROWS", 300)
     whole_on.cache_clear()
     cut = whole_on("ordinary", start_of(TOY, 30.0, TILT, MU))
     whole_on.cache_clear()
-    assert cut.is_cut and len(cut.trajectory.t) == 300
+    assert cut.cut == life.LONG and len(cut.trajectory.t) == 300
     assert story(cut).stages[-1].why.endswith(
         f"Its motion is computed only up to {cut.start.seconds:.3g} s. The top goes on.")  # fmt: skip
 

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.model import run
+from app.model import life
 from app.model.arrival import TILT, TOY
 from app.model.events import first_times
 from app.model.lab import ends
@@ -81,10 +81,12 @@ def test_an_ordinary_top_is_set_upright_and_a_slow_one_falls():
 
 def test_a_run_that_nobody_waits_for_says_so(monkeypatch):
     """A cone whose rim chatters, and less patience than a page has."""
-    monkeypatch.setattr(run, "MOST_LOOKS", 5)
-    scene = scene_of("ordinary", start_of(CONE, 8.0, 6.0, 0.3))
-    assert scene.motions["ordinary"] is None and scene.stages[0].why.startswith(
-        "Where it touches, it catches and slips so fast"
+    monkeypatch.setattr(life, "MOST_LOOKS", 5)
+    scene = scene_of("ordinary", start_of(CONE, 8.0, 6.0, 0.3), whole=True)
+    motion = scene.motions["ordinary"]
+    assert motion.cut == life.CATCHES and not scene.refused and 0 < motion.start.seconds < 6
+    assert scene.stages[-1].why.endswith(
+        f"catches and slips so fast that it is computed only up to {motion.start.seconds:.3g} s. The top goes on."
     )
 
 

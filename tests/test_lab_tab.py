@@ -16,8 +16,9 @@ from tippe_core import PRESETS
 
 @pytest.fixture
 def tab(monkeypatch):
-    monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: act())
-    monkeypatch.setattr("app.tabs.lab.lab.RESTS", 0.0)
+    for module in ("tabs.lab.lab", "widgets.rest"):
+        monkeypatch.setattr(f"app.{module}.after", lambda seconds, act: act())
+    monkeypatch.setattr("app.widgets.rest.REST", 0.0)
     lab, done = Lab(), []
     lab.rest = lambda: None  # the ends for all spins are not needed here
     made = LabTab(lab, lambda: done.append("rests"), research=lambda: done.append("research"))
@@ -38,8 +39,8 @@ def shown(tab):
 def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
     """As after an undo; of several scenes the last one counts."""
     waits, rested = [], []
-    monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: waits.append(act))
-    monkeypatch.setattr("app.tabs.lab.lab.RESTS", 0.0)
+    monkeypatch.setattr("app.widgets.rest.after", lambda seconds, act: waits.append(act))
+    monkeypatch.setattr("app.widgets.rest.REST", 0.0)
     lab = Lab()
     lab.rest = lambda: rested.append(lab.start.tilt)
     begin(lab)

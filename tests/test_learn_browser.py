@@ -322,11 +322,12 @@ def test_a_class_with_two_phones_that_goes_on_where_the_network_does_not(chromiu
         context.close()
 
 
+@pytest.mark.parametrize("own", [False, True])
 @pytest.mark.parametrize("language", ["en", "de"])
-def test_the_worksheet_is_one_page(chromium, language):
-    """Pages of A4, as printed."""
+def test_the_worksheet_is_one_page(chromium, language, own):
+    """Pages of A4, as printed; also with the class's own top."""
     with speaking(language):
-        sheet = worksheet()
+        sheet = worksheet(Explorer().scene if own else None)
     context = chromium.new_context()
     page = context.new_page()
     page.set_content(sheet)
@@ -335,6 +336,7 @@ def test_the_worksheet_is_one_page(chromium, language):
     assert len(re.findall(rb"/Type\s*/Page\b", printed)) == 1
     for step in lesson.SIX:
         assert say(f"worksheet.asked.{step.name}", language) in unescape(sheet)
+    assert ("16.0 mm" in sheet or "16,0 mm" in sheet) is own and sheet.count("<polygon") == own
 
 
 def test_the_links_of_the_teacher_open_their_step():

@@ -115,9 +115,12 @@ def test_what_cannot_be_leaves_the_last_map(tab):
                                ("seconds", "long", "seconds")):  # fmt: skip
         good = tab.settings.entries[entry].value
         tab.settings.entries[entry].value = typed
-        assert 'role="alert"' in tab.said.object and name in tab.said.object and tab.level is before
+        why, near, back = tab.settings.entries[entry].wrong
+        assert name in why and back == good and tab.level is before
+        assert near == {"across_to": "", "up_to": "180", "cells": "96", "seconds": ""}[entry]
+        tab.settings.entries[entry].value = near or good
+        assert tab.settings.entries[entry].wrong == []
         tab.settings.entries[entry].value = good
-        assert tab.said.object == ""
 
 
 def test_a_click_goes_to_the_run_of_a_cell(tab):

@@ -28,7 +28,8 @@ def explorer():
 def pacer(explorer, monkeypatch):
     """With three pictures, of which the second fails; drawn lists what was drawn."""
     drawn, timers, failing = [], [], []
-    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
+    for module in ("pacing", "rest"):
+        monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, then: timers.append(then))
 
     def fails(scene):
         raise ZeroDivisionError
@@ -55,7 +56,7 @@ def test_a_picture_that_fails_keeps_no_other_back(pacer):
 def test_a_hand_comes_to_rest_also_where_a_picture_fails(pacer):
     for K_J in (6.5, 6.6, 6.7):
         pacer.ask(K_J=K_J)
-    pacer._requested -= 1  # as if long ago
+    pacer._rest._last -= 1  # as if long ago
     pacer._hands.clear()
     with pytest.raises(ZeroDivisionError):
         while pacer.timers:

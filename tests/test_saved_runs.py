@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from app.model.measured import read
 from app.model.run import motion_on, whole_on
 from app.model.setup import start_of
 from app.share.saved_runs import NODS, Shown, caption, drawn, run_csv, run_glb, run_npz, run_print, run_python
@@ -27,19 +28,45 @@ def test_the_table_has_it_in_SI(shown):
     moved, scales = shown.trajectory, shown.setup.scales
     text = run_csv(shown, "https://example.org/?v=1")
     table = pd.read_csv(io.BytesIO(text), comment="#")
-    assert np.array_equal(table["theta"], moved.theta) and list(table["regime"]) == list(moved.regime)
-    assert np.array_equal(table["t"], moved.t * scales.time) and set(table["support"]) == {"ball"}
+    codes = {0: "roll", 3: "slip", 4: "air"}
+    assert np.array_equal(table["theta (rad)"], moved.theta)
+    assert [codes[code] for code in table["regime (1)"]] == list(moved.regime)
+    assert np.array_equal(table["t (s)"], moved.t * scales.time) and set(table["support (1)"]) == {0}
     weight = scales.M * scales.g
-    assert np.allclose(table["force_z"], weight * moved.force[:, 2], rtol=1e-12)
-    assert np.allclose(table["com_z"], 0.016 * moved.com[:, 2], rtol=1e-12)
-    head = text.decode().split("t,theta")[0]
-    assert f"# table = {shown.table}" in head and "# https://example.org/?v=1" in head
+    assert np.allclose(table["force_z (N)"], weight * moved.force[:, 2], rtol=1e-12)
+    assert np.allclose(table["com_z (m)"], 0.016 * moved.com[:, 2], rtol=1e-12)
+    below = text.decode().splitlines()[len(table) + 1 :]
+    assert f"# table = {shown.table}" in below and "# https://example.org/?v=1" in below
+    assert "# regime: 0 roll, 3 slip, 4 air" in below and "# support: 0 ball, 1 stem, 2 both, 3 none" in below
+
+
+def test_tracker_takes_the_table_and_its_track_as_they_are(shown):
+    """By the rules of its source (DataTool.parseData, ParticleDataTrack): lines that begin with # are passed over; the
+    first line of words has the names; a row with any word is no data; the time is t or time before a bracket; of a pair
+    of names that begin or end with x and y, the rest is the same."""
+    rows = [line.split(",") for line in run_csv(shown).decode().splitlines() if not line.startswith("#")]
+    names, numbers = rows[0], np.array([[float(cell) for cell in row] for row in rows[1:]])
+    assert numbers.shape == (len(shown.trajectory.t), len(names))
+    assert [name.split("(")[0].strip() for name in names].count("t") == 1
+    tracks = {axis: [name.strip(axis).strip() for name in names if name.startswith(axis) or name.endswith(axis)]
+              for axis in "xy"}  # fmt: skip
+    assert tracks == {"x": ["(m)"], "y": ["(m)"]}
+    track = numbers[:, [names.index("x (m)"), names.index("y (m)")]]
+    assert np.allclose(track, shown.setup.scales.R * shown.trajectory.contact, rtol=1e-12)
+
+
+def test_the_tab_measure_reads_the_table(shown):
+    found = {column.quantity: column for column in read("run.csv", run_csv(shown)).columns if column.quantity}
+    assert not any(column.guessed for column in found.values())
+    every = round(len(shown.trajectory.t) / len(found["tilt"].values))
+    assert np.allclose(found["tilt"].si[-1], shown.trajectory.theta[-1:], atol=0.1) and every >= 1
+    assert {"time", "tilt", "azimuth", "spin", "x", "y"} <= {*found}
 
 
 def test_the_arrays_are_the_tables(shown):
     table = pd.read_csv(io.BytesIO(run_csv(shown)), comment="#")
     with np.load(io.BytesIO(run_npz(shown))) as arrays:
-        assert np.array_equal(arrays["slip"][:, 1], table["slip_y"])
+        assert np.array_equal(arrays["slip"][:, 1], table["slip_y (m/s)"])
         assert json.loads(str(arrays["header"]))["parameters"]["M"] == [0.0115, "kg"]
 
 

@@ -41,7 +41,8 @@ def saved(page, label, name):
 
 
 def read(csv):
-    return pd.read_csv(io.BytesIO(csv), comment="#")
+    """The columns by their names without their units."""
+    return pd.read_csv(io.BytesIO(csv), comment="#").rename(columns=lambda name: name.split(" (")[0])
 
 
 def each_file_is_that_run(page, tmp_path):

@@ -31,14 +31,13 @@ def opened(monkeypatch):
 
     for kind in (House, Share, Pacer):
         monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
-    for where in ("app.widgets.pacing", "app.share.share"):
+    monkeypatch.setattr("app.widgets.rest.REST", 0.0)
+    for where in ("app.widgets.pacing", "app.widgets.rest"):
         monkeypatch.setattr(f"{where}.after", lambda seconds, then: timers.append(then))
     monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: results come at once
 
     def rest():
         for _ in range(40):
-            made[Pacer]._requested -= 9  # as if long ago
-            made[Share]._changed_at -= 9
             made[Pacer].painted.painted = made[Pacer].painted.sent
             if timers:
                 timers.pop(0)()

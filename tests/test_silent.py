@@ -124,3 +124,17 @@ def test_a_tab_that_slept_while_its_server_was_replaced_comes_back_and_so_does_o
         page.goto("about:blank")
         page.go_back()
         has_come_back(page, "29.5")
+
+
+@pytest.mark.long
+def test_on_a_slow_line_the_page_says_that_it_is_coming_and_comes(page, tmp_path):
+    """100 kbit/s and 400 ms, with nothing in the browser's cache."""
+    devtools = page.context.new_cdp_session(page)
+    slow = {"offline": False, "latency": 400, "downloadThroughput": 12_500, "uploadThroughput": 12_500}
+    devtools.send("Network.enable")
+    devtools.send("Network.emulateNetworkConditions", slow)
+    with served(tmp_path / "log") as server:
+        page.goto(server.url, wait_until="commit")
+        page.get_by_text(say("main.server.coming", "en")).wait_for()
+        page.wait_for_function(HERE, timeout=900_000)
+        assert "refused" not in server.log  # at the first try

@@ -4,8 +4,9 @@ import pytest
 import story_checker
 from story_checker import BODIES, CASES, LIVES, STEMLESS, faults, starts, starts_of_laws, told_by
 
-from app.model import run, tell
+from app.model import life, run, tell
 from app.model.setup import start_of
+from app.model.story import story
 
 FALSE = [
     ("hollow", "spin=20.616&tilt=17.50&mu_k=0.070"),  # "from 15° to 15°": heights, in mm
@@ -33,14 +34,21 @@ def test_rough_and_ice_are_not_refused_for_what_the_ordinary_table_does(preset, 
     assert not found["rough"]["refused"] and not found["ice"]["refused"]
 
 
-def test_a_life_that_takes_too_long_on_the_ordinary_table_is_no_reason_elsewhere(monkeypatch):
+def test_a_life_that_takes_too_long_is_shown_as_far_as_it_is_computed_and_goes_on_from_there(monkeypatch):
     """Rough and ice only ask it how long to be shown."""
-
-    def endless(*given):
-        raise run.TooLong
-
-    monkeypatch.setattr(run, "lived", endless)
-    assert run.whole_on("rough", start_of("Wooden cone", 49.5, 20.0, 0.751)).start.seconds == run.SECONDS
+    start = start_of("Wooden cone", 49.5, 20.0, 0.751)
+    life.life_of.cache_clear()
+    monkeypatch.setattr(life, "MOST_LOOKS", 20)
+    first, later = life.life_of(start).until(6.0), life.life_of(start).until(6.0)
+    assert first.cut == later.cut == life.CATCHES and 0 < first.seconds < later.seconds < 6
+    assert later.moved[: len(first.moved)].theta.tolist() == first.moved.theta.tolist()
+    cut = run.on(start, "ordinary")
+    assert cut.start.seconds > later.seconds and cut.ended_at is None
+    whole = run.whole_on("ordinary", start)
+    assert story(whole).stages[-1].why.endswith(f"computed only up to {whole.start.seconds:.3g} s. The top goes on.")
+    assert run.whole_on("rough", start).start.seconds == whole.start.seconds
+    for function in (run.whole_on, life.life_of):
+        function.cache_clear()
 
 
 @pytest.mark.long

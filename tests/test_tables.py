@@ -218,7 +218,7 @@ def test_the_arrows_of_the_force_obey_newton(table):
     """F and the weight, along the axes of space, are what moves G: against second differences of its place."""
     start = State(1.0, 0.0, 3.0, 2.0, vx=1.0, vy=0.5)
     setup = by_hand(stem=False, rolling=start, law="viscous", gamma=0.5, seconds=0.1)
-    motion = motion_of(computed(setup, table)[0], setup, setup.times, table)  # evenly spaced
+    motion = motion_of(computed(setup, table)[0].moved, setup, setup.times, table)  # evenly spaced
     t, _, _, com, _, force, *_ = motion.frames
     step = t[1]
     acceleration = (com[2:] - 2 * com[1:-1] + com[:-2]) / step**2

@@ -76,13 +76,14 @@ def walk(monkeypatch):
         monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
     for kind in (House, Rolling, Controls, LabTab, PlaneCard):
         monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
-    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
+    for module in ("pacing", "rest"):
+        monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, then: timers.append(then))
     monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: results come at once
     with set_curdoc(Document()):
 
         def rest():
             pacer = made[House].pacer
-            pacer._requested -= 1  # as if long ago
+            pacer._rest._last -= 1  # as if long ago
             for _ in range(30):
                 pacer.painted.painted = pacer.painted.sent
                 if timers:

@@ -23,7 +23,7 @@ from .motion.nudge import beside, growth, sensitivity
 from .motion.preparing import strongest_friction
 from .motion.pushing import pushed
 from .motion.rolling import Rolling, roll
-from .motion.sliding import slide
+from .motion.sliding import Sliding, slide
 from .motion.smooth import Gliding, glide
 from .motion.trajectory import SUNK, Ledger, Trajectory, lowest
 from .outcomes import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
@@ -44,7 +44,7 @@ except PackageNotFoundError:  # sources that are not installed
 __all__ = [
     "PRESETS", "SUNK", "UPRIGHT", "Ball", "BareSphere", "Change", "Constants", "Contensou", "Coulomb", "Ending",
     "Friction", "Gliding", "Lathe", "Ledger", "LoadedSphere", "Many", "Measured", "NoMotionError", "OrdinaryTop",
-    "Outcome", "Preset", "Rolling", "Scales", "Shape", "SmoothedCoulomb", "Solid", "State", "States",
+    "Outcome", "Preset", "Rolling", "Scales", "Shape", "Sliding", "SmoothedCoulomb", "Solid", "State", "States",
     "SteadyPrecessions", "SteadyStates", "StemmedSphere", "Stretch", "Thresholds", "Tielines", "Top", "TopError",
     "Trajectory", "TruncatedSphere", "Turned", "Viscous", "__version__", "a_from_rocking", "allowed_shares", "ball",
     "beside", "cylinder", "dimension_from_rocking", "ending", "f", "f1_squared", "f2_squared", "f3_squared",

@@ -1,12 +1,15 @@
-"""The whole life of a toy on the ordinary table: until it rolls for good, and a moment longer."""
+"""The motion of a start on the ordinary table, which goes on from where it was: its first seconds, and the whole life
+of the toy, until it rolls for good and a moment longer."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import TypeVar
+from functools import lru_cache
+from threading import Lock
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from app.model.motion import slid
+from app.model.motion import sliding_of
+from app.model.runs import look
 from app.model.setup import SECONDS, Setup
 from tippe_core import TopError, Trajectory
 
@@ -14,10 +17,25 @@ LIFE = 60.0  # s, at most
 AFTER = 2.0  # s that are still shown of a motion that goes on for ever
 NEAR, FAR = (0.5, 0.01), (1.0, 0.02)  # largest rotation (rad) and time (s) between two rows: up to SECONDS, and after
 MOST_ROWS = 6000
+MOST_LOOKS = 20_000  # calls of progress each time it goes on: some seconds; a toy that flips needs a hundred
 ROUNDING = 1e-9  # relative
+LONG, CATCHES = "long", "catches"  # why a motion is not computed to its end
 
 
 T = TypeVar("T", bound=Setup)
+
+
+class _TooLong(Exception):
+    """A run takes too long, for example that of a rim that chatters."""
+
+
+class Lived(NamedTuple):
+    """A motion from its start on: the Trajectory; its time in s, which is later than its last row if an event ends it;
+    cut: LONG or CATCHES if it goes on but is not computed further, or ""."""
+
+    moved: Trajectory
+    seconds: float
+    cut: str
 
 
 def within(start: T) -> T:
@@ -31,22 +49,65 @@ def within(start: T) -> T:
     return start
 
 
-def lived(start: Setup, look: Callable[[], Callable[[float], object]]) -> tuple[float, Trajectory]:
-    """How long a start is to be shown, s, and its Trajectory until then, thinned. look(): the progress of a slide()."""
-    time = start.scales.time
+class Life:
+    """The motion of a Setup, as far as anybody has asked for it. Threads may share it."""
+
+    def __init__(self, start: Setup) -> None:
+        self._sliding, self._time, self._lock = sliding_of(start, start.state), start.scales.time, Lock()
+        self._step = float(start.times[1])
+        self._most = within(replace(start, seconds=LIFE)).seconds
+        self._rows = 0
+
+    def until(self, seconds: float) -> Lived:
+        """The motion up to a time, from where it was when somebody asked before; what look() raises stops it there."""
+        seconds = min(seconds, self._most)
+        count = round(seconds / self._time / self._step) + 1
+        with self._lock:
+            if self._rows < count and not self._sliding.ended:
+                self._go_on(count)
+            moved = self._sliding.trajectory[:count]
+            if len(moved) < count and not self._sliding.ended:
+                return Lived(moved, float(moved.t[-1]) * self._time, CATCHES)
+        return Lived(moved, seconds, LONG if seconds == self._most and len(moved) == count else "")
+
+    def _go_on(self, count: int) -> None:
+        looks = iter(range(MOST_LOOKS))
+
+        def progress(reached: float) -> None:
+            look(reached)
+            if next(looks, None) is None:
+                raise _TooLong
+
+        try:
+            self._sliding.until(self._step * np.arange(self._rows, count), progress)
+        except _TooLong:
+            pass
+        finally:
+            self._rows = len(self._sliding.trajectory)
+
+
+@lru_cache(4)
+def life_of(start: Setup) -> Life:
+    """The Life of a Setup, for all visitors. Raises TopError."""
+    return Life(start)
+
+
+def lived(start: Setup) -> Lived:
+    """The motion for as long as it is to be shown, thinned."""
+    life, time = life_of(start), start.scales.time
     for wanted in (2 * SECONDS, 4 * SECONDS, LIFE):  # most have come to their end in the first
-        seconds = within(replace(start, seconds=wanted)).seconds
-        times = replace(start, seconds=seconds).times
-        moved = slid(start, start.state, times, look())
-        end = _end(moved, time, ended=len(moved.t) < len(times))
-        if end <= seconds or seconds < wanted:
+        moved, seconds, cut = life.until(wanted)
+        ended = not cut and time * moved.t[-1] < seconds * (1 - ROUNDING)
+        end = _end(moved, time, ended=ended)
+        if end <= seconds or cut:
             break
     found = thinned(moved, time, min(end, seconds))
-    if len(found.t) > MOST_ROWS:
-        found = thinned(moved, time, time * float(found.t[MOST_ROWS - 1]))
-    elif len(moved.t) < len(times):
-        return min(end, LIFE), found
-    return min(time * float(found.t[-1]), LIFE), found
+    if len(found) > MOST_ROWS:
+        found, ended = thinned(moved, time, time * float(found.t[MOST_ROWS - 1])), False
+    if ended:
+        return Lived(found, min(end, LIFE), "")
+    rolls = found.regime[-1] == "roll" and cut != CATCHES
+    return Lived(found, min(time * float(found.t[-1]), LIFE), "" if rolls else cut or LONG)
 
 
 def _end(moved: Trajectory, time: float, *, ended: bool) -> float:

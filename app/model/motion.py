@@ -12,13 +12,13 @@ from app.model.bodies import body
 from app.model.frames import in_space
 from app.model.regimes import ENDS, GLIDES, OF_CORE, SLIPS, WOULD_LIFT
 from app.model.setup import Setup
-from tippe_core import SUNK, Ending, Scales, State, TopError, Trajectory, ending, lowest, slide
+from tippe_core import SUNK, Ending, Scales, Sliding, State, TopError, Trajectory, ending, lowest
 from tippe_core.types import Array, Bools, Indices, Number
 
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 THROWN = "stem throws it up"
 NEAR_TOUCH = 0.02  # rad: a lift-off this near to the touch angle counts as caused by the touch
-RTOL = 1e-9  # of slide()
+RTOL = 1e-9  # of Sliding
 
 Progress: TypeAlias = Callable[[float], object]
 
@@ -82,10 +82,10 @@ class Motion:
         return bool(np.all(self._from_right_angle[0][:1] < 0))
 
 
-def slid(settings: Setup, state: State, times: Array, progress: Progress | None) -> Trajectory:
-    return slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing,
-                 edge=settings.edge, progress=progress,
-                 profile=body(settings.shape) if settings.edge else None)  # fmt: skip
+def sliding_of(start: Setup, state: State) -> Sliding:
+    """The motion of a Setup on the ordinary table, from a State."""
+    return Sliding(start.top, state, start.friction, rtol=RTOL, landing=start.landing, edge=start.edge,
+                   profile=body(start.shape) if start.edge else None)  # fmt: skip
 
 
 def check_room(settings: Setup, state: State) -> None:

@@ -13,16 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
-from app.model.life import lived, thinned, within
-from app.model.motion import Motion, Progress, check_room, clear, for_reader, motion_of, slid
+from app.model.life import Lived, life_of, lived, thinned, within
+from app.model.motion import Motion, check_room, clear, for_reader, motion_of
 from app.model.phases import Phase, carried, phases, samples
-from app.model.runs import look
 from app.model.setup import SECONDS, Setup, start_of
 from app.text import say, told
-from tippe_core import TopError, Trajectory, glide, grip, roll
+from tippe_core import TopError, glide, grip, roll
 from tippe_core.types import Array
 
-MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
 STEM = "stem", "both"
 WHILE, AT_ONCE = 0.2, 1e-6  # s
@@ -31,27 +29,11 @@ EXTREME = "extreme"  # the code of a TopError
 SHIPS = arrival.TABLE, start_of(*arrival.ARRIVAL[1:])
 
 
-class TooLong(Exception):
-    """A run takes too long, for example that of a rim that chatters."""
-
-
-class Patience:
-    """The progress function of a run: stops it if its page has closed, or after MOST_LOOKS calls."""
-
-    def __init__(self) -> None:
-        self._left = MOST_LOOKS
-
-    def __call__(self, reached: float) -> None:
-        self._left -= 1
-        if self._left < 0:
-            raise TooLong
-        look(reached)
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TableMotion(Motion):
     """A Motion of a start on a table, one of the names in TABLES. lost: the energy (MgR) that the grip of the rough
-    table has taken; it is part of the heat. whole: whether it goes to the end of the toy's life.
+    table has taken; it is part of the heat. whole: whether it goes to the end of the toy's life, unless it is cut, for
+    the reason life.LONG or life.CATCHES, "" if it is not.
 
     curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
     (mm), the heat so far in the same way, the spin about the top's own axis and its rotation seen from above (rev/s),
@@ -62,6 +44,7 @@ class TableMotion(Motion):
     table: str
     lost: float
     whole: bool
+    cut: str
     curves: Array
 
     @property
@@ -128,12 +111,6 @@ class TableMotion(Motion):
         return phases(samples(self.trajectory, self.start.scales.time, self.start.turns, tuple(self.cuts.values()),
                               0.0 if self.table == "ice" else rolls))  # fmt: skip
 
-    @property
-    def is_cut(self) -> bool:
-        """Whether the motion continues after the end of what was computed."""
-        ended = bool(self.ended) and len(self.trajectory.t) < len(self.t)
-        return self.whole and self.table == "ordinary" and not ended and bool(np.isnan(self.rolls_since))
-
 
 @lru_cache(12)
 def motion_on(table: str, start: Setup) -> TableMotion:
@@ -148,18 +125,18 @@ def whole_on(table: str, start: Setup) -> TableMotion:
     one."""
     if (table, start) == SHIPS:
         kept = arrival.read(start.top)
-        return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
+        return watched(start, table, Lived(kept, start.scales.time * float(kept.t[-1]), ""), whole=True)
     if table != "ordinary":
         try:
             seconds = whole_on("ordinary", start).start.seconds
-        except (TopError, TooLong):
+        except TopError:
             seconds = SECONDS
         return on(replace(start, seconds=seconds), table)
     try:
-        seconds, kept = lived(start, Patience)
+        check_room(start, start.state)
+        return watched(start, table, lived(start), whole=True)
     except TopError as error:
         raise for_reader(error, start.scales) from None
-    return moved(replace(start, seconds=seconds), table, kept, 0.0, whole=True)
 
 
 def on(start: Setup, table: str) -> TableMotion:
@@ -167,27 +144,31 @@ def on(start: Setup, table: str) -> TableMotion:
     units of the controls."""
     try:
         start = within(start)
-        return moved(start, table, *computed(start, table))
+        found, lost = computed(start, table)
+        thin = found._replace(moved=thinned(found.moved, start.scales.time))
+        return watched(start, table, thin, lost, whole=table != "ordinary")
     except TopError as error:
         raise for_reader(error, start.scales) from None
 
 
-def computed(start: Setup, table: str, progress: Progress | None = None) -> tuple[Trajectory, float]:
-    """The trajectory of a Setup on a table, and the energy (MgR) that the grip of the rough one has taken. Raises
-    TopError."""
-    state, times, lost = start.state, start.times, 0.0
+def computed(start: Setup, table: str) -> tuple[Lived, float]:
+    """The motion of a Setup on a table, at evenly spaced times, and the energy (MgR) that the grip of the rough one has
+    taken. Raises TopError."""
+    state, lost = start.state, 0.0
     check_room(start, state)
     if table == "ordinary":
-        return slid(start, state, times, progress or Patience()), lost
+        return life_of(start).until(start.seconds), lost
     try:
         if table == "ice":
-            return clear(partial(glide, start.top, state, times), start, state), lost
-        state, lost = grip(start.top, state)
-        return clear(partial(roll, start.top, None, times, state), start, state), lost
+            moved = clear(partial(glide, start.top, state, start.times), start, state)
+        else:
+            state, lost = grip(start.top, state)
+            moved = clear(partial(roll, start.top, None, start.times, state), start, state)
     except TopError:
         raise
     except (ValueError, ArithmeticError):  # of the solvers without friction, whose squares or reciprocals overflow
         raise TopError("state", repr(state), "one of moderate numbers", code=EXTREME) from None
+    return Lived(moved, start.seconds, ""), lost
 
 
 def why_not(error: TopError) -> str:
@@ -195,17 +176,13 @@ def why_not(error: TopError) -> str:
     return say("planes.run.extreme") if error.code == EXTREME else told(error)
 
 
-def moved(start: Setup, table: str, trajectory: Trajectory, lost: float, *, whole: bool = False) -> TableMotion:
-    """The TableMotion of the results of computed(). whole: the trajectory is already thinned and goes to the end."""
-    shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
-    times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)
-    return watched(shown, start, times, table, lost, whole=whole or table != "ordinary")
-
-
-def watched(trajectory: Trajectory, start: Setup, times: Array, table: str, lost: float, *, whole: bool) -> TableMotion:
-    """The TableMotion of a Trajectory that was asked for at these times."""
-    motion = motion_of(trajectory, start, times, table)
-    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole,
+def watched(start: Setup, table: str, found: Lived, lost: float = 0.0, *, whole: bool) -> TableMotion:
+    """The TableMotion of the results of computed() or lived()."""
+    start, moved = replace(start, seconds=found.seconds), found.moved
+    end = found.seconds / start.scales.time
+    times = moved.t if end - moved.t[-1] < NEARLY * end else np.append(moved.t, end)
+    motion = motion_of(moved, start, times, table)
+    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole, cut=found.cut,
                        curves=_curves(motion, start, lost))  # fmt: skip
 
 

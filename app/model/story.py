@@ -249,7 +249,9 @@ class _Told:
             return [say(f"lab.stopped.{kind}", **numbers | {"time": motion.ended_at})]
         if self._repeats(phase):
             return [say("lab.next.forever")] if not self.quiet else [say(f"lab.{self.table}.forever")]
-        said = [say("lab.next.cut", **numbers)] if motion.is_cut and phase.kind != "lies" else []
+        said = (
+            [say(f"lab.next.{motion.cut}", **numbers)] if motion.cut and motion.whole and phase.kind != "lies" else []
+        )
         if phase.kind in STANDS and numbers["last"] >= SPINS:
             return [say("lab.next.spins", **numbers), *said]
         return [*([say("lab.next.tilt", **numbers)] if phase.kind not in ("lies", "nods", "leans") else []), *said]
@@ -330,7 +332,8 @@ def _caption(motion: TableMotion) -> str:
     if motion.ended_at is not None:
         return say("lab.caption.ends", time=motion.ended_at, happens=_happens(motion))
     if by < TENTH[0]:
-        return say("lab.caption.stays", low=low)
+        same = f"{low:.0f}" == f"{high:.0f}"
+        return say("lab.caption.stays", low=low) if same else say("lab.caption.stays_near", mean=(low + high) / 2)
     if by < TENTH[1]:
         return say("lab.caption.tenth")
     return say("lab.caption.little", by=by) if by < 1 else say("lab.caption.nods", low=low, high=high)

@@ -96,11 +96,10 @@ def _unit_line(name, scales):
 
 
 def motion_csv(scene, link=""):
-    """The motion as CSV (bytes), one row for each frame, numbers to the last digit; lines that begin with # give the
-    units."""
+    """The motion as CSV (bytes), one row for each frame, numbers to the last digit."""
     table = motion_table(scene)
     lines = header(scene, link) + [_unit_line(name, scene.scales) for name in table]
-    return csv(lines, dict(columns(table)))
+    return csv(lines, columns(table, {name: unit for name, (_, unit, *_) in UNITS.items()}))
 
 
 def tielines_csv(scene, link=""):
@@ -109,26 +108,26 @@ def tielines_csv(scene, link=""):
     return csv(header(scene, link) + [f"{name}: {TIELINES[name]}" for name in table], table)
 
 
-def columns(table):
-    """(name, (n,) array) of each column of a table."""
+def columns(table, units):
+    """{name (unit): (n,) array} of each column of a table; units: {name: its unit, "" for a pure number}.
+
+    Tracker takes columns that are called x and y for the track of a point, and any that ends with x or y: each name
+    has a unit behind it, (1) for a pure number."""
+    found = {}
     for name, values in table.items():
-        if values.ndim == 1:
-            yield name, values
-            continue
         axes = {"omega": ("1", "2", "3"), "quaternion": "xyzw"}.get(name, "xyz")
-        for axis, column in zip(axes, values.T, strict=False):
-            yield f"{name}_{axis}", column
+        rows = zip((f"{name}_{axis}" for axis in axes), values.T, strict=False) if values.ndim > 1 else [(name, values)]
+        for called, column in rows:
+            found[f"{called.removeprefix('contact_')} ({units[name] or 1})"] = column
+    return found
 
 
 def csv(lines, columns):
-    """Lines that begin with #, then columns below their names, as bytes."""
-    text = "".join(f"# {line}\n" for line in lines) + ",".join(columns) + "\n"
+    """Columns of numbers below their names, as Tracker and spreadsheets open them, then lines that begin with #, as
+    bytes."""
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    return (text + "".join(",".join(map(_word, row)) + "\n" for row in rows)).encode()
-
-
-def _word(value):
-    return value if isinstance(value, str) else repr(value)
+    text = ",".join(columns) + "\n" + "".join(",".join(map(repr, row)) + "\n" for row in rows)
+    return (text + "".join(f"# {line}\n" for line in lines)).encode()
 
 
 def arrays_npz(scene, link=""):

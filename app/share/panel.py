@@ -54,8 +54,8 @@ def _program(text, link):
 
 class Files:
     """view: the rows. runs: the page's Runs; playing: its Playing; body: returns the body that can be printed, or None;
-    sheet: returns the worksheet for a class. show(scene, shown, link) sets what is now on the page, and the link that
-    opens it; shown: {table: Shown}, empty if the rolling motion is shown."""
+    sheet: returns the worksheet for a class, of a Scene. show(scene, shown, link) sets what is now on the page, and the
+    link that opens it; shown: {table: Shown}, empty if the rolling motion is shown."""
 
     def __init__(self, runs, playing, body, sheet):
         self._runs, self._playing, self._body = runs, playing, body
@@ -75,8 +75,8 @@ class Files:
         mailed = self._of_scene(
             NAMES["html"], "tippe-top.html", lambda scene, link: letter(scene, link, playing.chosen)
         )
-        paper = Paper(margin=0, page=sheet(), label=say("share.panel.print"))
-        rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [paper]}
+        self._sheet, self._paper = sheet, Paper(margin=0, label=say("share.panel.print"))
+        rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [self._paper]}
         self._python = Copy(label="Python", rows=13, button=listed("share.copy"), sizing_mode="stretch_width",
                             margin=(4, 0))  # fmt: skip
         figures = pn.Column(*self._figures(), sizing_mode="stretch_width", margin=0)
@@ -127,6 +127,7 @@ class Files:
         self._photo.caption = self._caption()
         self._name()
         if another:
+            self._paper.page = self._sheet(scene)
             self._show_python()
 
     def _name(self):

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from app.model.phases import carried
+from app.model.regimes import OF_CORE
 from app.model.setup import Setup
 from app.share import export, glb, prints
 from app.text import say
@@ -26,6 +27,12 @@ UNITS = {
     "energy": ("energy", "J", "energy"), "heat": ("heat since the start", "J", "energy"),
 }  # fmt: skip
 """{array of a Trajectory: (what it is, unit, its scale in SI)}."""
+SUPPORTS = np.array(["ball", "stem", "both", "none"])
+CODES = {
+    "regime": (", ".join(f"{code} {name}" for name, code in OF_CORE.items()), "", None),
+    "support": (", ".join(f"{code} {name}" for code, name in enumerate(SUPPORTS)), "", None),
+}
+"""The same of the columns that say what it does and what it stands on, as numbers: Tracker reads no words."""
 ORDINARY, ROUGH, ICE = "ordinary", "rough", "ice"
 OF_ONE = "in units of M, R and g"
 LONGEST = 60.0  # s: the longest animation
@@ -70,13 +77,15 @@ def columns(shown):
 
 
 def run_csv(shown, link=""):
-    """A run as CSV (bytes), one row for each frame; lines that begin with # describe it."""
+    """A run as CSV (bytes), one row for each frame; lines that begin with #, below the numbers, describe it."""
     lines = ["Tippe top explorer: a top on a table"]
     lines += [f"{name} = {value} {unit}".rstrip() for name, (value, unit) in shown.parameters.items()]
     lines += [link] * bool(link) + [f"{name}: {what}" + f", in {unit}" * bool(unit)
-                                    for name, (what, unit, _) in UNITS.items()]  # fmt: skip
-    words = {"regime": shown.trajectory.regime, "support": carried(shown.trajectory, shown.trajectory.t)}
-    return export.csv(lines, dict(export.columns(columns(shown))) | words)
+                                    for name, (what, unit, _) in (UNITS | CODES).items()]  # fmt: skip
+    moved = shown.trajectory
+    on = np.argmax(carried(moved, moved.t)[:, None] == SUPPORTS, axis=1)
+    table = columns(shown) | {"regime": np.array([OF_CORE[name] for name in moved.regime]), "support": on}
+    return export.csv(lines, export.columns(table, {name: unit for name, (_, unit, _) in (UNITS | CODES).items()}))
 
 
 def run_npz(shown, link=""):

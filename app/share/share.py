@@ -1,7 +1,6 @@
 """Share: the link with its QR code, undo and redo, and the files to save."""
 
 import html
-import time
 from urllib.parse import parse_qs, urlsplit
 
 import panel as pn
@@ -16,10 +15,8 @@ from app.state.keep import shared
 from app.state.names import is_local
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.failure import after
+from app.widgets.rest import Rest
 
-# s without any change after which the address is updated and a step of undo is made
-REST = 0.25
 # It covers the cards beside the stage, never the stage itself; as wide as those are in the Lab.
 PLACE = """
 :host { position: fixed; z-index: 15; inset: calc(48px * var(--type, 1)) 0 0 auto; width: 488px; height: auto;
@@ -49,13 +46,13 @@ class Share(param.Parameterized):
     keep: the page's Keep; playing: its Playing; scene: the first one; runs: the page's Runs; shown: returns the
     saved_runs.Shown of the tables that are shown; busy: whether others are being computed; settle: solves the scene of
     the present inputs, if that was postponed; body: returns the body of the page's top; sheet: returns the worksheet
-    for a class. show() is for the scene of a hand at rest.
+    for a class, of a Scene. show() is for the scene of a hand at rest.
     """
 
     is_open = param.Boolean(default=False)
 
     def __init__(self, keep, playing, scene, runs=None, shown=list, busy=bool, settle=bool, body=lambda: None,
-                 sheet=str):  # fmt: skip
+                 sheet=lambda scene: ""):  # fmt: skip
         super().__init__()
         self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
         self._shown, self._busy, self._settle, self._body, self._sheet = shown, busy, settle, body, sheet
@@ -65,8 +62,8 @@ class Share(param.Parameterized):
         self.address = Address(search=self.keep.query, where=self.keep.where, width=0, height=0, margin=0)
         at_once(self.address, "held", "gesture", "undone", "redone", "page", "visited")
         self._notice = pn.Column(sizing_mode="stretch_width", margin=0)
-        self._waiting, self._changed_at = False, 0.0
-        self.keep.param.watch(self._changed, "changed")
+        self._rest = Rest(self._rests, lambda: self.address.held)
+        self.keep.param.watch(lambda event: self._rest.moved(), "changed")
         self.keep.param.watch(self._say, "sentence")
         self._say()
         self.keep.param.watch(self._kept, ["query", "where"])
@@ -99,18 +96,8 @@ class Share(param.Parameterized):
             words(f'<div role="alert"><b>{html.escape(text)}</b></div>', NOTICE)
         ] if text else []  # fmt: skip
 
-    def _changed(self, event):
-        self._changed_at = time.monotonic()
-        if not self._waiting:
-            self._waiting = True
-            after(REST, self._look)
-
-    def _look(self):
-        left = self._changed_at + REST - time.monotonic()
-        if self.address.held or left > 0:
-            after(REST if self.address.held else left, self._look)
-            return
-        self._waiting = False
+    def _rests(self):
+        """Updates the address and makes a step of undo."""
         self.keep.at_rest(self.address.gesture)
         self.refresh()
 
@@ -138,7 +125,7 @@ class Share(param.Parameterized):
     def refresh(self, *events):
         """To be called when something else may be shown. While a hand is moving, the link does not have that yet, so
         the panel waits for the link."""
-        if self.is_open and not self._waiting:
+        if self.is_open and not self._rest.is_due:
             self._show()
 
     def _show(self):

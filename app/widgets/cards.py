@@ -16,6 +16,7 @@ STAGED = """
 }
 """
 MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
+UNROLLED = ".scroll-button { display: none !important }"  # Panel's, which takes a place of its own
 SIDE = """
 :host { display: contents } .scroll-button { display: none !important }
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 24px } }
@@ -114,6 +115,7 @@ def grid(*cards, narrowest=480):
             "gap": "24px",
             "padding": "12px 24px 24px",
         },
+        stylesheets=[UNROLLED],
     )
 
 
@@ -153,4 +155,5 @@ def flexible(*cards):
         "padding": "12px 24px 24px",
         "align-items": "start",
     }
-    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)
+    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles,
+                     stylesheets=[UNROLLED])  # fmt: skip

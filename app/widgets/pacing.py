@@ -12,11 +12,11 @@ from app.borrowed import at_once
 from app.bundle import Bundled
 from app.together import set_together
 from app.widgets.failure import after, attempt
+from app.widgets.rest import REST, Rest
 
 # Two, so that one can be on its way while the browser paints the other.
 HANDS_IN_FLIGHT = 2
-# s without a request after which a hand is at rest; one that moves in steps rests between them, but is not still
-REST_AFTER, STILL_AFTER = 0.15, 0.6
+STILL_AFTER = 0.6  # s: a hand that moves in steps rests between them, but is not still
 # A hidden browser tab paints nothing and so never answers.
 ANSWER_WITHIN = 2.0
 
@@ -49,7 +49,7 @@ class Pacer:
         self._single = True  # whether the hand was at rest before the last request
         self._said = None  # the scene that was shown to "rest" since then
         self._stayed = explorer.scene  # the scene that was last shown to "still"
-        self._requested = 0.0
+        self._rest = Rest(self._rests, self._is_asking)
         self._later, self._begun = [], False
         self._hands, self._drawing = [], []  # (number, time of sending) of what the browser has yet to paint
         self._sent = 0  # the last number
@@ -96,11 +96,9 @@ class Pacer:
     def ask(self, **inputs):
         """Requests these inputs of the Explorer; a later request for the same input replaces one that still waits."""
         self._wanted.update(inputs)
-        self._requested = time.monotonic()
         self._single, self._said = self._resting, None  # a request is answered even if nothing changes
-        if self._resting:
-            self._resting = False
-            after(REST_AFTER, self._rest)
+        self._resting = False
+        self._rest.moved()
         self._advance()
 
     def _advance(self):
@@ -138,20 +136,15 @@ class Pacer:
         if self._resting:
             after(STILL_AFTER, partial(self._stay, event.new))
 
-    def _rest(self):
-        try:
-            self._advance()  # also for a hidden tab, which sends no answer that would do it
-        finally:
-            left = self._requested + REST_AFTER - time.monotonic()
-            self._resting = not (left > 0 or self._wanted)
-            if not self._resting:
-                after(left, self._rest)
-        if not self._resting:
-            return
-        scene = self._explorer.scene
+    def _is_asking(self):
+        self._advance()  # also for a hidden tab, which sends no answer that would do it
+        return bool(self._wanted)
+
+    def _rests(self):
+        self._resting, scene = True, self._explorer.scene
         self._say(scene)
         self._finish_later()
-        after(STILL_AFTER - REST_AFTER, partial(self._stay, scene))
+        after(STILL_AFTER - REST, partial(self._stay, scene))
 
     def _stay(self, scene):
         if self._resting and scene is self._explorer.scene and scene is not self._stayed:

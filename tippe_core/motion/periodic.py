@@ -17,7 +17,6 @@ from .stepper import at_share, densely
 from .summary import up_rate, up_rate_at
 
 
-@compiled
 def run_all(W: Record, P: Record, log: Array, end: float, flies: bool, steps: int) -> int:
     """Like run(), without samples, and skipping repeated nutations: OVER, MORE or ENDED."""
     limit, none, rows = W.steps + steps, np.zeros(0), np.zeros(0, SAMPLE)

@@ -54,9 +54,13 @@ CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(
                 right=(7,), impact=IMPACT)  # fmt: skip
 
 # A step of stepper.py: the rates at its stages, z before and after it and at a stage, the scales of z, the coefficients
-# of the polynomial; and those of implicit.py: its stages, the Jacobian and the equations for a stage.
+# of the polynomial; and those of implicit.py: its stages, the Jacobian and the equations for a stage. Of the step that
+# is begun, if one is: its length, the part of it that is taken, the time and the event at the end of that part, the
+# normal force at its end, the slowest contact, whether tau is the time.
 STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16),
-            U=(8, 16), J=(16, 9), matrix=(9, 9), pivots=("i8", (9,)), right=(9,))  # fmt: skip
+            U=(8, 16), J=(16, 9), matrix=(9, 9), pivots=("i8", (9,)), right=(9,),
+            begun="i8", h=float, share=float, until=float, event=("i8", (2,)), N=float, slowest="i8",
+            timed="?")  # fmt: skip
 
 # The summary of a motion, summary.py.
 SUMMARY = kind(since=float, C_J=float, drift=float, touched="i8", hops="i8", F_z_least=float, least=float, most=float,

@@ -32,7 +32,6 @@ STIFF_DIRECTION = 10.0  # if beta relaxes so many times faster than log|u| chang
 NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin at which a patch may come to rest, if the tolerance is smaller
 
 
-@compiled
 def run(
     W: Record, P: Record, log: Array, times: Array, rows: Array, end: float, flies: bool, hands_over: bool, steps: int
 ) -> int:
@@ -67,10 +66,10 @@ def follow(W: Record, P: Record, log: Array, times: Array, rows: Array, end: flo
         while k < len(times) and times[k] <= y[at.TIME]:
             sample(W, P, y, NO_ONE, times[k], rows)
             k = W.samples
-    while y[at.TIME] < end:
+    while y[at.TIME] < end and not sampled(W, times):
         if W.steps >= limit:
             return MORE, BALL
-        W.steps += 1
+        W.steps += not S.begun
         event = advance(W, P, log, times, rows, end)
         if event[0] != NONE:
             return event
@@ -78,40 +77,66 @@ def follow(W: Record, P: Record, log: Array, times: Array, rows: Array, end: flo
 
 
 @compiled
+def sampled(W: Record, times: Array) -> bool:
+    """Whether there are times, with a sample at each."""
+    return 0 < len(times) == W.samples
+
+
+@compiled
 def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: float) -> Event:
-    """Takes one step, or the part of it before an event; returns the event or NONE."""
+    """Takes one step, or the part of it before an event, and samples it; returns the event, NONE, or OVER within the
+    step once there is a sample at each of the times, so that the next call with later times goes on in it."""
+    y, S = W.y, W.step
+    if not S.begun:
+        begin_step(W, P, log, times, end)
+    while W.samples < len(times) and times[W.samples] <= S.until:
+        t = times[W.samples]
+        x = (t - y[at.TIME]) / S.h if S.timed else stepper.when(S, t)
+        stepper.at_share(S, x, S.at)
+        sample(W, P, S.at, S.slowest, t, rows)
+    if sampled(W, times):
+        return OVER, BALL
+    return end_step(W, P)
+
+
+@compiled
+def begin_step(W: Record, P: Record, log: Array, times: Array, end: float) -> None:
+    """Finds a step, at most up to the time `end`, and the part of it before an event, without changing y."""
     y, S, C = W.y, W.step, W.contacts
-    slowest = change_variables(W, P)
+    S.slowest = slowest = change_variables(W, P)
     if W.rated:  # the last stage of the previous step
         S.K[0, :] = S.K[STAGES]
     scales(W, P, slowest)
-    timed = P.law.radius == 0.0 and slowest == NO_ONE
-    h, near = accept(W, P, slowest, end - y[at.TIME] if timed else np.inf)
+    S.timed = timed = P.law.radius == 0.0 and slowest == NO_ONE
+    S.h, near = accept(W, P, slowest, end - y[at.TIME] if timed else np.inf)
     if timed:  # free of rounding errors of the integration
-        S.new[at.TIME] = end if h == end - y[at.TIME] else y[at.TIME] + h
-    event, share, k, N = (NONE, BALL), 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
+        S.new[at.TIME] = end if S.h == end - y[at.TIME] else y[at.TIME] + S.h
+    event, share, k, S.N = (NONE, BALL), 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
     dense = near < NEAR_EVENT or S.new[at.TIME] > end or (k < len(times) and times[k] <= S.new[at.TIME])
     if dense:
-        stepper.densely(W, P, slowest, h)
+        stepper.densely(W, P, slowest, S.h)
     if near < NEAR_EVENT:
         event, share = first_event(W, P, slowest)
     over = S.new[at.TIME] > end and (share == 1.0 or within(S, share, at.TIME) > end)
     if over:
         event, share = (NONE, BALL), stepper.when(S, end)
-    t = S.new[at.TIME] if share == 1.0 else (y[at.TIME] + share * h if timed else within(S, share, at.TIME))
-    t = end if over else min(t, end)
-    while k < len(times) and times[k] <= t:
-        x = (times[k] - y[at.TIME]) / h if timed else stepper.when(S, times[k])
-        stepper.at_share(S, x, S.at)
-        sample(W, P, S.at, slowest, times[k], rows)
-        k = W.samples
+    t = S.new[at.TIME] if share == 1.0 else (y[at.TIME] + share * S.h if timed else within(S, share, at.TIME))
+    S.begun, S.share, S.until, S.event[0], S.event[1] = 1, share, end if over else min(t, end), event[0], event[1]
     stepper.at_end(S, share)
-    watch_tilt(W, P, log, slowest, h, share, dense)
-    before = moved(W, P, slowest, t)
-    if event[0] == NONE and share == 1.0:
-        event = comes_to_rest(W, P, slowest, before)
-    W.rated = event[0] == NONE and share == 1.0 and slowest == NO_ONE
-    summarize(W, P, 0.0 if event[0] == LEAVES else N if share == 1.0 else np.inf)
+    watch_tilt(W, P, log, slowest, S.h, share, dense)
+
+
+@compiled
+def end_step(W: Record, P: Record) -> Event:
+    """Moves y to the end of the step, or of its part before an event; returns the event or NONE."""
+    S, event = W.step, (W.step.event[0], W.step.event[1])
+    S.begun = 0
+    stepper.at_end(S, S.share)
+    before = moved(W, P, S.slowest, S.until)
+    if event[0] == NONE and S.share == 1.0:
+        event = comes_to_rest(W, P, S.slowest, before)
+    W.rated = event[0] == NONE and S.share == 1.0 and S.slowest == NO_ONE
+    summarize(W, P, 0.0 if event[0] == LEAVES else S.N if S.share == 1.0 else np.inf)
     return event
 
 

@@ -5,26 +5,22 @@ in contacts.py, impact.py and standing.py. This file checks the arguments and bu
 """
 
 from collections.abc import Callable
-from functools import partial
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, single
-from ..paper.constants import State, versines
+from ..errors import TopError, finite, single
+from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array
 from . import at, events, preparing
-from .contacts import SLACK, TOUCH, tilt_guards
 from .dynamics import carried
 from .friction import LAWS, Friction
-from .kinds import RIM, SLIPS, TOUCHES, Event
-from .poses import REGIMES, ROLLING, sample_at
-from .records import BALL, LOG, OPEN, SAMPLE, SLIP, STEM, Record, new
-from .rolling import Rolling
-from .run import HANDS_OVER, MORE, run
-from .smooth import first_below, zeros
+from .poses import REGIMES, sample_at
+from .records import LOG, OPEN, SAMPLE, SLIP
+from .rolling_part import RollingPart
+from .run import ENDED, HANDS_OVER, MORE, run
 from .summary import begin
 from .trajectory import ANOTHER_TOUCHES, Trajectory, checked_times, sunk
 
@@ -105,170 +101,184 @@ def slide(
     balances the friction, or several do (contacts.py); "too many events" after 10,000 of them, for example if friction
     chatters at its limit or the top keeps hopping; "too many steps" after as many as take about half a minute.
     """
-    single("top", top, Top)
-    single("state", state, State)
-    single("friction", friction, *LAWS)
     t = checked_times(times)
-    if np.any(np.diff(t) < 0):
-        raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
-    preparing.check_balance(top, friction)
-    losses = preparing.checked_losses(rolling_resistance, air_drag)
-    P = preparing.problem(top, friction, preparing.checked_edge(edge), losses, preparing.checked_rtol(rtol))
-    body = None if profile is None else preparing.checked_profile(profile)
-    moved = _moved(top, state, friction, P, t, preparing.flies(landing), progress)
-    first = len(moved) if body is None else sunk(moved, body)
-    return moved if first == len(moved) else moved.until(max(first, 1), float(moved.t[first]), ANOTHER_TOUCHES)
+    sliding = Sliding(top, state, friction, float(t[0]), rtol, landing, edge, rolling_resistance, air_drag, profile)
+    return sliding.until(t, progress)
 
 
-def _moved(
-    top: Top, state: State, friction: Friction, P: Record, times: Array, flies: bool, progress: Progress
-) -> Trajectory:
-    """slide() without a profile, after its arguments have been checked."""
-    W = preparing.motion(*preparing.beginning(state, times[0], P))
-    log, rows = np.zeros(2 * MOST_EVENTS, LOG), np.zeros(len(times), SAMPLE)
-    stands_on, goes_on = preparing.start(W, P, state)
-    begin(W, P, log, np.inf)
-    first = carried(*W.modes) if goes_on else 1 + stands_on
-    if not goes_on:
-        events.logged(W, log, events.PAINLEVE, OPEN, OPEN)
-    elif first == 0 and state.z is None:
-        events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
-    if goes_on and (first or flies or state.z is not None):
-        _fill_rows(top, W, P, log, times, rows, flies, progress)
-    notes = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] == events.NOTES]
-    entries = [entry for entry in log[: W.logged] if events.EVENTS[entry.name][1] != events.NOTES]
-    if not W.samples:
-        _alone(W, P, stands_on, entries[0].name, rows[0])
-    rows = rows[: max(W.samples, 1)]
-    fields = rows.view(float).reshape(len(rows), -1)  # all of a row at once; a regime looks like a number close to 0
-    followed = np.append(np.isfinite(fields).all(axis=1), np.isfinite(W.y).all())
-    if not followed.all():
-        raise TopError("friction", friction, "weaker friction for this top",
-                       "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",
-                       t=float(times[max(int(followed.argmin()) - 1, 0)]), unit="")  # fmt: skip
-    supports = [(float(times[0]), events.SUPPORTS[first])]
-    for entry in entries:
-        if entry.name != events.PAINLEVE:
-            _support(supports, float(entry.t), events.SUPPORTS[entry.supports])
-    parts = {name: rows[name].copy() for name in SAMPLE.names} | {"regime": REGIMES[rows["regime"]]}
-    said, noted = (tuple((float(entry.t), events.EVENTS[entry.name][0]) for entry in some) for some in (entries, notes))
-    return Trajectory(top=top, events=said, notes=noted, supports=tuple(supports), **parts)
+class Sliding:
+    """The motion with friction as an object that goes on from where it was; arguments as in slide(), without the times.
 
+    Parameters
+    ----------
+    top, state, friction
+        as in slide()
+    begins : float
+        the time of the state, (R/g)^1/2
+    rtol, landing, edge, rolling_resistance, air_drag, profile
+        as in slide()
 
-def _fill_rows(
-    top: Top, W: Record, P: Record, log: Array, times: Array, rows: Array, flies: bool, progress: Progress
-) -> None:
-    """Computes the rows at the times; progress is told which fraction of the time is done."""
-    begins, ends, status = times[0], times[-1], MORE
-    while status in (MORE, HANDS_OVER):
-        status = run(
-            W,
-            P,
-            log,
-            times,
-            rows,
-            ends,
-            flies,
-            P.delta == P.drag == 0.0,
-            STEPS_BETWEEN_CALLS if progress else MOST_STEPS,
+    Attributes
+    ----------
+    ended : bool
+        whether an event has ended the motion, so that it does not go on
+    trajectory : Trajectory
+        the motion so far
+
+    Raises
+    ------
+    TopError
+        as slide()
+
+    Notes
+    -----
+    Its steps do not depend on the times, so what it gives after it has gone on is equal, to the last bit, to what
+    slide() gives for all of the times at once.
+    """
+
+    def __init__(
+        self, top: Top, state: State, friction: Friction, begins: float = 0.0, rtol: float = 1e-9,
+        landing: str = "plastic", edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
+        profile: ArrayLike | None = None,
+    ) -> None:  # fmt: skip
+        self.top, self.friction = single("top", top, Top), single("friction", friction, *LAWS)
+        single("state", state, State)
+        preparing.check_balance(top, friction)
+        losses = preparing.checked_losses(rolling_resistance, air_drag)
+        self._body = None if profile is None else preparing.checked_profile(profile)
+        self._flies = preparing.flies(landing)
+        P = self._P = preparing.problem(
+            top, friction, preparing.checked_edge(edge), losses, preparing.checked_rtol(rtol)
         )
-        if progress and status in (MORE, HANDS_OVER):
-            progress(float(min(1.0, (W.y[at.TIME] - begins) / (ends - begins))) if ends > begins else 1.0)
-        if status == HANDS_OVER and _roll(top, W, P, log, times, rows, flies):
-            return
-        if status == MORE and W.steps >= MOST_STEPS:
-            events.logged(W, log, events.TOO_MANY_STEPS, *W.modes)
-            return
+        W = self._W = preparing.motion(*preparing.beginning(state, finite("begins", begins), P))
+        self._log: Any = np.zeros(2 * MOST_EVENTS, LOG)
+        self._rows: Any = np.zeros(0, SAMPLE)
+        self._last = self._begins = float(begins)
+        self._part: RollingPart | None = None
+        self._sinks: tuple[int, float] | None = None  # the row, and the time, at which another part touches
+        self._stands_on, goes_on = preparing.start(W, P, state)
+        begin(W, P, self._log, np.inf)
+        self._first = carried(*W.modes) if goes_on else 1 + self._stands_on
+        if not goes_on:
+            events.logged(W, self._log, events.PAINLEVE, OPEN, OPEN)
+        elif self._first == 0 and state.z is None:
+            events.logged(W, self._log, events.LIFTS_OFF, OPEN, OPEN)
+        self.ended = not (goes_on and (self._first or self._flies or state.z is not None))
 
+    def until(self, times: ArrayLike, progress: Progress = None) -> Trajectory:
+        """Goes on, at these times.
 
-def _alone(W: Record, P: Record, stands_on: int, event: int, row: Record) -> None:
-    """The row of a single instant, for an event that ends the motion at once."""
-    modes = [OPEN, OPEN]
-    if event != events.LIFTS_OFF:
-        modes[stands_on] = SLIP
-    W.contacts.F[:] = 0.0
-    W.contacts.F[stands_on, 2] = float(event == events.STANDS_UPRIGHT)
-    sample_at(W, P, modes[0], modes[1], row)
-    row.slip = 0.0
+        Parameters
+        ----------
+        times : array (n,)
+            in (R/g)^1/2, not decreasing, and none before those of an earlier call
+        progress : callable or None
+            as in slide(), with the fraction of the time since the last of the earlier times. If it raises an exception,
+            the motion goes on from there at the next call
 
+        Returns
+        -------
+        Trajectory
+            at these times and all earlier ones, as from slide()
 
-# ---- rolling on the ball ----
+        Raises
+        ------
+        TopError
+            for times that decrease, and where the equations cannot be followed
+        """
+        t = checked_times(times)
+        if np.any(np.diff(t) < 0):
+            raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
+        if t[0] < self._last:
+            raise TopError("times", times, "{first:.10g} to {last:.10g}", "Friction has no way back.",
+                           code="outside-times", first=self._last, last=np.inf)  # fmt: skip
+        rows = np.zeros(len(t), SAMPLE)
+        if not self.ended:
+            self._W.samples = 0
+            try:
+                self._fill(t, rows, progress)
+            finally:
+                self._add(t, rows[: self._W.samples])
+        return self.trajectory
 
+    @property
+    def trajectory(self) -> Trajectory:
+        """The motion so far, at all of the times."""
+        rows, noted, entries = self._rows, list[tuple[float, str]](), list[tuple[float, str]]()
+        if not len(rows):
+            rows = self._alone()
+        supports = [(self._begins, events.SUPPORTS[self._first])]
+        for entry in self._log[: self._W.logged]:
+            t, (name, what) = float(entry.t), events.EVENTS[entry.name]
+            if what == events.NOTES:
+                noted += [(t, name)] * (t <= self._last)
+                continue
+            entries.append((t, name))
+            if entry.name != events.PAINLEVE:
+                _support(supports, t, events.SUPPORTS[entry.supports])
+        parts = {name: rows[name].copy() for name in SAMPLE.names} | {"regime": REGIMES[rows["regime"]]}
+        moved = Trajectory(top=self.top, events=tuple(entries), notes=tuple(noted), supports=tuple(supports), **parts)
+        return moved if self._sinks is None else moved.until(*self._sinks, ANOTHER_TOUCHES)
 
-def _roll(top: Top, W: Record, P: Record, log: Array, times: Array, rows: Array, flies: bool) -> bool:
-    """Rolls on the ball, by the exact motion of rolling.py, until an event; returns whether the motion ends with it."""
-    y, done = W.y, int(W.samples)
-    rolling = Rolling(top, None, _state(W, P))
-    ends, event = _ends(rolling, P)
-    last = y[at.TIME] + ends
-    for t, name in _noted(rolling, min(last, times[-1]) - y[at.TIME]):
-        events.noted(W, log, name, y[at.TIME] + t)
-    count = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, last)), done)
-    moved = rolling(np.array([y[at.TIME], *times[done:count]]))
-    for name in SAMPLE.names:
-        rows[name][done:count] = {"heat": y[at.HEAT], "regime": ROLLING}.get(name, getattr(moved, name)[1:])
-    W.samples = count
-    if count == len(times):
-        return True
-    one = rolling(np.array([0.0, ends]))
-    theta, turn = one.theta[1], np.exp(1j * one.phi[1])
-    v, m = versines(theta)
-    u = complex(one.velocity[1, 0], one.velocity[1, 1]) * turn
-    y[:] = preparing.y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
-                          complex(*one.com[1, :2]), last, y[at.HEAT])  # fmt: skip
-    W.angles[:] = 0.0, one.phi[1]
-    preparing.on_table(W, P, BALL)
-    return bool(events.happens(W, P, log, event, flies))
+    def _fill(self, times: Array, rows: Array, progress: Progress) -> None:
+        """Computes the rows at the times, and whether the motion ends; progress is told which fraction is done."""
+        W, P, log, begins, ends, status = self._W, self._P, self._log, self._last, times[-1], MORE
+        exact, steps = P.delta == P.drag == 0.0, STEPS_BETWEEN_CALLS if progress else MOST_STEPS
+        while status in (MORE, HANDS_OVER):
+            status = HANDS_OVER if self._part else run(W, P, log, times, rows, np.inf, self._flies, exact, steps)
+            self.ended = status == ENDED
+            if progress and status in (MORE, HANDS_OVER):
+                progress(float(min(1.0, (W.y[at.TIME] - begins) / (ends - begins))) if ends > begins else 1.0)
+            if status == HANDS_OVER and self._rolls(times, rows):
+                return
+            if status == MORE and W.steps >= MOST_STEPS:
+                events.logged(W, log, events.TOO_MANY_STEPS, *W.modes)
+                self.ended = True
+                return
 
+    def _add(self, times: Array, rows: Any) -> None:
+        """Adds the rows at the first of the times. Raises TopError unless they, and y, are finite."""
+        fields = rows.view(float).reshape(len(rows), SAMPLE.itemsize // 8)  # a regime looks like 0
+        followed = np.append(np.isfinite(fields).all(axis=1), np.isfinite(self._W.y).all())
+        if not followed.all():
+            raise TopError("friction", self.friction, "weaker friction for this top",
+                           "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",
+                           t=float(times[max(int(followed.argmin()) - 1, 0)]), unit="")  # fmt: skip
+        before, self._rows = len(self._rows), np.concatenate([self._rows, rows])
+        self._last = float(times[-1] if self.ended else rows["t"][-1] if len(rows) else self._last)
+        if self._body is not None and len(rows):
+            first = before + sunk(self.trajectory[before:], self._body)
+            if first < len(self._rows):
+                self._sinks, self.ended = (max(first, 1), float(self._rows["t"][first])), True
 
-def _state(W: Record, P: Record) -> State:
-    """The State at W.y, without the velocity of G."""
-    here = new(SAMPLE)
-    sample_at(W, P, OPEN, OPEN, here)
-    theta, phi, psi, (w1, w2, w3) = here.theta, here.phi, here.psi, here.omega
-    if theta in (0.0, np.pi):
-        pole = np.cos(theta)  # 1' along omega, as it is just after the pole
-        lean = np.angle(pole * (w1 + 1j * pole * w2))
-        w1, w2, phi, psi = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean
-    return State(theta, w1, w2, w3, phi, psi, *here.com[:2])
+    def _alone(self) -> Any:
+        """The row of a single instant, where an event ends the motion at once."""
+        W, modes, rows = self._W, [OPEN, OPEN], np.zeros(1, SAMPLE)
+        event = next((each.name for each in self._log[: W.logged] if events.EVENTS[each.name][1] != events.NOTES), None)
+        if event != events.LIFTS_OFF:
+            modes[self._stands_on] = SLIP
+        W.contacts.F[:] = 0.0
+        W.contacts.F[self._stands_on, 2] = float(event == events.STANDS_UPRIGHT)
+        sample_at(W, self._P, modes[0], modes[1], rows[0])
+        rows["slip"] = 0.0
+        return rows
 
-
-def _ends(rolling: Rolling, P: Record) -> tuple[float, Event]:
-    """When the ball ceases to roll alone, inf if never, and by which event."""
-    theta = rolling.start.theta
-    floor = min(preparing.gap(P, np.cos(theta), np.sin(theta)), 0.0)
-
-    def margin(t: Array) -> Array:
-        F = rolling(np.append(0.0, t)).force[1:].T
-        return P.law.mu_s * F[2] - np.hypot(F[0], F[1]) + SLACK
-
-    def room_left(t: Array) -> Array:
-        theta = rolling.theta(t)
-        return TOUCH - floor + preparing.gap(P, np.cos(theta), np.sin(theta))
-
-    found: list[tuple[float, Event]] = [(first_below(margin, rolling.period), (SLIPS, BALL))]
-    if P.stem:
-        found.append((first_below(room_left, rolling.period), (TOUCHES, STEM)))
-    for n, least in enumerate(tilt_guards(np.cos(rolling.turning_points), P)):
-        if min(least) < 0:
-            tilts = partial(lambda t, n: tilt_guards(np.cos(rolling.theta(t)), P)[n], n=n)
-            found.append((first_below(tilts, rolling.period), (RIM + n, BALL)))
-    return min(found)
-
-
-def _noted(rolling: Rolling, ends: float) -> list[tuple[float, int]]:
-    """The times, up to `ends`, and the names of what is noted while it rolls."""
-
-    def value(t: Array, n: int) -> Array:
-        moved = rolling(np.append(0.0, t))
-        up, up_rate = np.cos(moved.theta), -np.sin(moved.theta) * moved.omega[:, 0]
-        return cast(Array, events.noted_values(up[1:], up_rate[1:])[n])
-
-    found, each = [], rolling.period
-    for n, name in enumerate(events.NOTED):
-        for first in zeros(partial(value, n=n), min(each, ends)):
-            found += [(float(t), int(name)) for t in np.arange(first, ends, each)[:MOST_EVENTS]]
-    return sorted(found)
+    def _rolls(self, times: Array, rows: Array) -> bool:
+        """Rolls on the ball until an event; returns whether that, or the last of the times, is the end."""
+        W, P, log, done = self._W, self._P, self._log, int(self._W.samples)
+        if self._part is None:
+            self._part = RollingPart.of(self.top, W, P)
+        part, ends = self._part, self._part.ends
+        for t, name in sorted(part.noted(self._last, min(ends, times[-1]))):
+            events.noted(W, log, name, t)
+        W.samples = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, ends)), done)
+        part.fill(times[done : W.samples], rows[done : W.samples])
+        if W.samples == len(times):
+            return True
+        self._part = None
+        part.end(W, P)
+        self.ended = bool(events.happens(W, P, log, part.event, self._flies))
+        return self.ended
 
 
 def _support(supports: list[tuple[float, str]], t: float, what: str) -> None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from app.model.arrival import MU, SPIN, TABLE, TILT
 from app.model.events import first_times
 from app.model.phases import NODS
-from app.model.run import TableMotion, TooLong, whole_on
+from app.model.run import TableMotion, whole_on
 from app.model.setup import start_of
 from app.text import say, told
 from tippe_core import Shape, TopError
@@ -27,9 +27,9 @@ def verdict(shape: Shape) -> Verdict:
     start: dict[str, Number] = {"spin": SPIN, "tilt": TILT, "mu": MU}
     try:
         motion = whole_on(TABLE, start_of(shape, SPIN, TILT, MU))
-    except (TopError, TooLong) as error:
-        why = told(error) if isinstance(error, TopError) else say("lab.refused.too-long")
-        return Verdict("refused", say("build.verdict.refused"), say("build.verdict.refused_why", why=why, **start))
+    except TopError as error:
+        said = say("build.verdict.refused_why", why=told(error), **start)
+        return Verdict("refused", say("build.verdict.refused"), said)
     found = first_times(motion)
     code = _end_of(motion, found)
     part = say(f"planes.parts.{motion.start.part}")

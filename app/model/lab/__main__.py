@@ -7,7 +7,6 @@ import numpy as np
 from app.model.arrival import FILE, HAPPENS, MU, SPIN, TILT, TOY
 from app.model.lab.ends import ends_of
 from app.model.life import lived
-from app.model.run import Patience
 from app.model.setup import start_of
 from tippe_core import Trajectory
 
@@ -27,4 +26,4 @@ def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:
 
 if __name__ == "__main__":
     start = start_of(TOY, SPIN, TILT, MU)
-    write(lived(start, Patience)[1], ends_of(start).codes)
+    write(lived(start).moved, ends_of(start).codes)

@@ -16,7 +16,7 @@ from app.model.arrival import TILT
 from app.model.keeps import keeps, while_it_turns
 from app.model.lab.allowed import LIMITS, POSSIBLE, below, fault, nearest
 from app.model.lab.ends import Ends, ends_once, known_ends, of_spins
-from app.model.run import SHIPS, TableMotion, TooLong, motion_on, whole_on, why_not
+from app.model.run import SHIPS, TableMotion, motion_on, whole_on, why_not
 from app.model.runs import LATER, Result, Run, Runs, Stopped
 from app.model.setup import OF_LAW, TABLES, Setup, Toy
 from app.model.start import NUMBERS, Start, arrives, of_toy
@@ -102,8 +102,6 @@ def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
             if error.code in ("body-below-table", "below-sliding", "too-strong"):
                 raise
             refused[each] = _sentence(error)
-        except TooLong:
-            refused[each] = say("lab.refused.too-long")
     found = {name: motion for name, motion in motions.items() if motion is not None}
     stories = {name: story(motion) for name, motion in found.items()}
     return LabScene(

@@ -1,6 +1,6 @@
 """How predictable a run is: the same run, tilted a millionth of a radian more at its start."""
 
-from app.model.motion import Progress, slid
+from app.model.motion import Progress, sliding_of
 from app.model.run import TableMotion
 from tippe_core import beside, growth
 
@@ -18,5 +18,5 @@ def nudged(motion: TableMotion, progress: Progress | None = None) -> float:
     start = motion.start
     assert motion.ending is not None  # something touched there
     moved, until = motion.trajectory, motion.ending.stretches[0].end + BESIDE / start.scales.time
-    near = slid(start, beside(start.state, NUDGE), moved.t[moved.t <= until], progress)
+    near = sliding_of(start, beside(start.state, NUDGE)).until(moved.t[moved.t <= until], progress)
     return growth(moved, near, NUDGE)

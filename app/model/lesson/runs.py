@@ -13,8 +13,9 @@ from app.model.arrival import MU, SPIN, TILT, TOY
 from app.model.frames import in_space
 from app.model.lesson.parts import K_R
 from app.model.lesson.parts import TILT as THROWN_TILT
+from app.model.life import Lived, thinned
 from app.model.regimes import OF_CORE
-from app.model.run import TableMotion, computed, motion_on, moved
+from app.model.run import TableMotion, motion_on, on, watched
 from app.model.scene import Scene
 from app.model.setup import TOYS, Setup, start_of
 from tippe_core import Constants, SmoothedCoulomb, State, Top, Trajectory, omega3, roll, slide
@@ -31,7 +32,7 @@ def of_contact(law: str) -> TableMotion:
     """The toy and start of the arrival on the ordinary table, touching it at a point, with Coulomb's law, or in a small
     patch."""
     start = replace(start_of(TOY, SPIN, TILT, MU), law=law, patch=SMALL_PATCH)
-    return moved(start, "ordinary", *computed(start, "ordinary"))
+    return on(start, "ordinary")
 
 
 def on_table(table: str) -> TableMotion:
@@ -42,7 +43,7 @@ def on_table(table: str) -> TableMotion:
 def own(scene: Scene) -> TableMotion:
     """The page's own top, released like the toy of the arrival; raises TopError if that is not possible."""
     start = Setup(top=scene.top, scales=scene.scales, shape=scene.shape, spin=SPIN, tilt=TILT, mu=MU, mu_s=MU)
-    return moved(start, "ordinary", *computed(start, "ordinary"))
+    return on(start, "ordinary")
 
 
 # ---- the proof: the paper's top, a whole ball ----
@@ -88,7 +89,7 @@ def rolled(tilt: float, spin: float) -> TableMotion:
     rest."""
     setup = proof().setup
     motion = roll(setup.top, None, setup.times, State(tilt, 0.0, 0.0, spin / setup.turns))
-    return moved(setup, "rough", motion, 0.0)
+    return watched(setup, "rough", Lived(thinned(motion, setup.scales.time), setup.seconds, ""), whole=True)
 
 
 def named(name: str) -> TableMotion:

@@ -41,11 +41,11 @@ def points_of(names: Sequence[str]) -> dict[str, dict[str, int]]:
 
 def pair_of(names: Sequence[str], values: Array) -> tuple[dict[str, int], dict[str, int], str] | None:
     """(columns of the stem's end, of the ball's middle, what both are called), if two points on the axis were
-    followed: those with such names, else both of two, the higher one first."""
+    followed: those with such names, else both of two with any names, the higher one first."""
     points = {point: axes for point, axes in points_of(names).items() if {"x", "y"} <= axes.keys()}
     stem = next((point for point in points if STEM.search(point)), None)
     ball = next((point for point in points if BALL.search(point) and point != stem), None)
-    if len(points) == 2 and (stem is None or ball is None):
+    if len(points) == 2 and "" not in points and (stem is None or ball is None):
         one, other = points
         if stem or ball:
             stem, ball = (stem, one if stem == other else other) if stem else (one if ball == other else other, ball)

@@ -81,8 +81,10 @@ class Pieces:
                 values[name] = typed_number(entry.value)
             except ValueError:
                 which = say(f"build.pieces.names.{name}")
-                self.words.object = alert(say("build.pieces.not_a_number", name=which, text=entry.value))
+                good = dict(self.FIELDS).get(name, tidy(self._exact))
+                entry.refuse(say("build.pieces.not_a_number", name=which, text=entry.value), "", good)
                 return
+            entry.refuse()
         density = self._exact if self.density.value == tidy(self._exact) else values["density"]
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
 

@@ -46,7 +46,9 @@ class RockingFields:
                 if entry.value.strip() or name in self.TIMED:
                     values[name] = typed_number(entry.value) * unit
             except ValueError:
-                raise ValueError(say("build.own.not_a_number", text=entry.value)) from None
+                entry.refuse(say("build.own.not_a_number", text=entry.value))
+                raise ValueError from None
+            entry.refuse()
         rocking = Rocking(**values)
         return rocking, rocking.a(self.builder.draft.shape)
 
@@ -70,7 +72,7 @@ class RockingFields:
         try:
             rocking, found = self._found()
         except ValueError as error:
-            self.result.object = alert(sentence(error) if isinstance(error, TopError) else str(error))
+            self.result.object = alert(sentence(error)) if isinstance(error, TopError) else ""
             self.use.disabled = True
             return
         self.use.disabled = False

@@ -25,6 +25,10 @@ RATIOS = np.linspace(0.6, 1.9, 40)
 SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
 
 
+class Wrong(Exception):
+    """args: the name of an entry, why its text is refused, and the nearest possible one, if there is one."""
+
+
 class Compare:
     """view: the map and its inputs; compute() fills it. scene: the first one; after show() requests refer to another
     scene. runs: the page's Runs."""
@@ -91,6 +95,7 @@ class Compare:
             I1, K_R = shape.top.I1, thrown(shape)[1]
         for name, value in (("I1", I1), ("K_R", K_R), ("mu_s", scene.inputs["mu_s"])):
             self.entries[name].value = written(value, ".4g")
+        self._good = {name: entry.value for name, entry in self.entries.items()}
 
     def _show_span(self):
         a = SPANS[self.kind.value]
@@ -99,17 +104,20 @@ class Compare:
         return {"x": [low], "w": [high - low]}
 
     def _asked(self):
-        """I1, K_R and mu_s as they were typed; raises ValueError, TopError."""
+        """I1, K_R and mu_s as they were typed; raises Wrong."""
         values = {}
         for name, entry in self.entries.items():
             try:
                 values[name] = typed_number(entry.value)
             except ValueError:
-                raise ValueError(say("family.map.not_a_number", name=name, text=entry.value)) from None
-        for name, allowed, good in (("I1", "I1 > 0 (in MR^2)", values["I1"] > 0),
-                                    ("mu_s", "mu_s >= 0", values["mu_s"] >= 0)):  # fmt: skip
+                raise Wrong(name, say("family.map.not_a_number", name=name, text=entry.value), "") from None
+        for name, allowed, good, near in (("I1", "I1 > 0 (in MR^2)", values["I1"] > 0, ""),
+                                          ("mu_s", "mu_s >= 0", values["mu_s"] >= 0, "0")):  # fmt: skip
             if not good:
-                raise TopError(name, values[name], allowed)
+                raise Wrong(name, told(TopError(name, values[name], allowed)), near)
+        self._good = {name: entry.value for name, entry in self.entries.items()}
+        for entry in self.entries.values():
+            entry.refuse()
         return values
 
     def compute(self):
@@ -117,8 +125,9 @@ class Compare:
         a = SPANS[self.kind.value]
         try:
             asked = self._asked()
-        except ValueError as error:
-            self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
+        except Wrong as error:
+            name, why, near = error.args
+            self.entries[name].refuse(why, near, self._good[name])
             return
         top = self._scene.top
         own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1

@@ -6,7 +6,6 @@ state of the Lab to the component, which draws it.
 
 import json
 import math
-import time
 from functools import partial
 
 import panel as pn
@@ -26,6 +25,7 @@ from app.tabs.lab.words import is_caught, notes
 from app.text import listed, say, speaking, spoken
 from app.widgets.controls import valid
 from app.widgets.failure import after
+from app.widgets.rest import Rest
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import Top, TopError
@@ -34,7 +34,6 @@ SLIDERS = {name: (each.low, each.high, each.step, each.digits) for name, each in
 """{input: (least, most, step, decimals) of its slider}; values outside can be typed."""
 SOON = 0.05  # s: a run that is done sooner is not shown as under way
 LOOKS = 0.3  # s between two updates of the progress of a run
-RESTS = 0.4  # s after its last request after which a hand is at rest
 
 
 def dimensions(toy):
@@ -90,32 +89,8 @@ def begin(lab):
 
     lab.show()
     lab.rest()
-    quiet = Quiet(still)
-    lab.param.watch(lambda event: quiet.moved(), "scene")
-
-
-class Quiet:
-    """Calls act() once nothing has moved for RESTS, with one timer for all movements."""
-
-    def __init__(self, act):
-        self._act, self._last, self._waits = act, 0.0, False
-
-    def moved(self):
-        self._last = time.monotonic()
-        if not self._waits:
-            self._wait(RESTS)
-
-    def _wait(self, seconds):
-        self._waits = True
-        after(seconds, self._look)
-
-    def _look(self):
-        self._waits = False
-        left = self._last + RESTS - time.monotonic()
-        if left > 0:
-            self._wait(left)
-        else:
-            self._act()
+    rest = Rest(still)
+    lab.param.watch(lambda event: rest.moved(), "scene")
 
 
 class LabTab:
@@ -123,7 +98,7 @@ class LabTab:
     at rest; leads: as of lab_view()."""
 
     def __init__(self, lab, rests, **leads):
-        self._lab, self._leads, self._quiet, self._looks = lab, leads, Quiet(rests), 0
+        self._lab, self._leads, self._rest, self._looks = lab, leads, Rest(rests), 0
         self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self._rolls = ""
         self.view = LabView(sizing_mode="stretch_width", margin=0)
@@ -161,7 +136,7 @@ class LabTab:
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
         else:
             raise asked.Unasked(name)
-        self._quiet.moved()
+        self._rest.moved()
         if self._said == self._answered:
             return
         if not self._lab.busy:

@@ -7,7 +7,7 @@ from functools import partial
 import panel as pn
 
 from app.model.maps.choice import FIXED
-from app.model.maps.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
+from app.model.maps.maps import COLOURS_BY, LAWS, MOST_CELLS, MOST_SECONDS, QUANTITIES, SECONDS, Map
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, written
 from app.widgets.cards import flow, words
@@ -22,7 +22,7 @@ class Settings:
     """changed: called after an input was set by hand; gone: after another position of the bead was typed."""
 
     def __init__(self, asked, colour, place, changed, gone):
-        self._changed, self._gone, self._silent = changed, gone, False
+        self._changed, self._gone, self._silent, self._last = changed, gone, False, ""
         quantities = {says: name for name, says in listed("maps.quantities").items()}
         options = {
             "across": quantities,
@@ -87,6 +87,8 @@ class Settings:
             self._write({"seconds": asked.seconds, "cells": asked.cells})
         self.show_place(place)
         self._show_rows()
+        self._good = {name: entry.value for name, entry in self.entries.items()}
+        self.accept()
 
     def show_place(self, place):
         with self._quietly():
@@ -94,6 +96,7 @@ class Settings:
 
     def look_at(self, across, up):
         """Sets other ranges."""
+        self._last = ""
         with self._quietly():
             self._write({f"{side}_{end}": float(span[i]) for side, span in (("across", across), ("up", up))
                          for i, end in enumerate(LIMITS)})  # fmt: skip
@@ -117,11 +120,44 @@ class Settings:
         """The position of the bead that was typed; raises ValueError."""
         return [self._number(f"here_{side}") for side in SIDES]
 
+    # ---- what cannot be ----
+
+    def refuse(self, why):
+        """Says it at the entry that was typed last, with the nearest possible number; returns whether there is one."""
+        if not self._last:
+            return False
+        self.entries[self._last].refuse(why, *self._ways(self._last))
+        return True
+
+    def accept(self):
+        """Nothing is wrong any more."""
+        self._last = ""
+        for entry in self.entries.values():
+            entry.refuse()
+
+    def _ways(self, name):
+        """(the nearest possible number for an entry, the last good one), as they are typed."""
+        good = self._good[name]
+        try:
+            value = typed_number(self.entries[name].value)
+        except ValueError:
+            return "", good
+        side, _, end = name.partition("_")
+        if name == "cells":
+            near = min(max(3 * round(value / 3), 3), MOST_CELLS)
+        elif name == "seconds":
+            near = min(max(value, 0.1), MOST_SECONDS)
+        else:
+            of = QUANTITIES[self.choices[side].value if end else name]
+            near = min(max(value, of.least), of.most)
+        return ("" if near == value else written(near, ".5g")), good
+
     # ---- input by hand ----
 
     def _chosen(self, name, event):
         if self._silent:
             return
+        self._last = ""
         with self._quietly():
             if name in SIDES:
                 quantity = QUANTITIES[event.new]
@@ -133,6 +169,7 @@ class Settings:
 
     def _typed(self, name, event):
         if not self._silent:
+            self._last = name
             (self._gone if name.startswith("here") else self._changed)()
 
     def _show_rows(self):

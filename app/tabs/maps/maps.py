@@ -125,8 +125,9 @@ class Maps:
         try:
             asked = self.settings.asked()
         except ValueError as error:
-            self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
+            self._refuse(error)
             return
+        self.settings.accept()
         colour = self.settings.choices["colour"].value
         if (asked, colour) == (self.choice.asked, self.choice.colour):
             self.said.object = ""
@@ -136,7 +137,14 @@ class Maps:
         try:
             self.go(*self.settings.place())
         except ValueError as error:
-            self.said.object = alert(str(error))
+            self._refuse(error)
+        else:
+            self.settings.accept()
+
+    def _refuse(self, error):
+        why = told(error) if isinstance(error, TopError) else str(error)
+        if not self.settings.refuse(why):
+            self.said.object = alert(why)
 
     def _usual_spans(self):
         return [

@@ -2,7 +2,7 @@
 import { colours } from "../colours.js";
 
 const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white",
-  font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)" };
+  font: "14px/1.4 var(--family, system-ui, sans-serif)", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)" };
 const FIRST = 500, LONGEST = 8000; // ms between two attempts, each randomly changed by up to half
 
 function notice(style) {
@@ -16,7 +16,7 @@ function notice(style) {
 /** @param {Pick<Rendering<FailureModel>, "model">} rendering */
 export function renderFailure({ model }) {
   const words = notice({ inset: "auto 8px 8px", zIndex: 9998, display: "flex", gap: "12px", alignItems: "center",
-    padding: "8px 8px 8px 16px", background: "#b3261e" });
+    padding: "8px 8px 8px 16px", background: colours.ink });
   const close = document.createElement("button");
   Object.assign(close.style, { font: "inherit", color: "inherit", background: "transparent", border: "1px solid",
     borderRadius: "6px", padding: "4px 10px", cursor: "pointer" });

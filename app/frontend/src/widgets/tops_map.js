@@ -81,7 +81,9 @@ function areas({ x, y, first, split, last, foot }) {
 function axes({ x, y, first, foot, last }, words, type) {
   const across = [...FAR_TICKS, ...TICKS].map((a) => `<text x="${x(a)}" y="${foot + 13 * type + 3}" text-anchor="middle">${local(String(a))}</text>`);
   const up = RATIO_TICKS.map((ratio) => `<text x="${first - 6}" y="${y(ratio) + 4}" text-anchor="end">${local(String(ratio))}</text>`);
-  return `<g class="axis">${across.join("")}${up.join("")}<text x="${first}" y="${foot + 15 * type + 19}">${words.far}</text>
+  const isRoom = LETTER * type * (words.far.length + words.across.length) < last - first;
+  const far = isRoom ? `<text x="${first}" y="${foot + 15 * type + 19}">${words.far}</text>` : "";
+  return `<g class="axis">${across.join("")}${up.join("")}${far}
     <text x="${last}" y="${foot + 15 * type + 19}" text-anchor="end">${words.across}</text></g>`;
 }
 
