@@ -29,8 +29,8 @@ try {
 
 // 2. Panel fetches a component's bundle when the first of its components comes, reads through it and runs a copy. The browser
 // has ours by then: under its address (https://github.com/holoviz/panel/pull/7410) it is given out as it is.
-const { bundle } = JSON.parse(document.getElementById("early")?.textContent ?? "");
-const ours = new URL(bundle, document.baseURI).href;
+const { bundle: itsAddress } = JSON.parse(document.getElementById("early")?.textContent ?? "");
+const ours = new URL(itsAddress, document.baseURI).href;
 const theirs = window.importShim;
 const load = (path, ...more) => {
   const { href } = new URL(path, document.baseURI);

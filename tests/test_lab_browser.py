@@ -117,7 +117,7 @@ def test_on_a_german_phone_nothing_covers_what_is_said_and_all_can_be_changed(ch
     for other in (".paces", ".starts"):
         longest = "Kippt auf die Seite · 140° · jetzt 1/16 Tempo"
         assert not page.locator(".lab").evaluate(COVERS, [".pill", other, longest]), other
-    whole = page.locator(".main-content")
+    whole = page.locator("main")
     for before in ("nothing", "an earlier run"):  # beside which the controls at the foot of the page are higher
         for fold in ("Kreisel: Stiel, Ballast", "Zahlen"):
             whole.evaluate(DOWN)
