@@ -125,8 +125,9 @@ class House:
             for each in research:
                 each.view.visible = not self._explores()
                 each.open = not self._explores()
-                if each.view not in view:  # only now, because a group of inputs is drawn with its values
-                    view.append(each.view)
+            parts = [tab.view, *(each.view for each in research)]
+            if list(view) != parts:  # only now, because a group of inputs is drawn with its values
+                view.objects = parts
             is_beside = not self._explores() and self.explorer.table != "three"
             view.styles = {"--columns": COLUMNS[is_beside], "--beside": "sticky" if is_beside else "static",
                            "--edge": "0" if is_beside else "24px"}  # fmt: skip
