@@ -6,7 +6,7 @@ import re
 import pytest
 from axe import LARGE, check
 from playwright.sync_api import expect
-from visiting import PIXEL, Visit, go_to, wait
+from visiting import IN_SIGHT, PIXEL, Visit, go_to, wait
 
 from app.text import listed
 
@@ -97,6 +97,7 @@ def a_box_looks_closer_and_undo_goes_back(page):
     before = page.evaluate(RANGE)
     enter(page, "The run at, Across", "45")
     wait(page, lambda: abs(page.evaluate(BEAD)[0] - 45) < 1e-9)
+    page.locator("[data-figure=maps]").evaluate(IN_SIGHT)
     pull(page, [15.0, 10.0], [18.0, 14.0], [21.0, 20.0], [25.0, 30.0])
     wait(page, lambda: page.evaluate(RANGE) != before)
     assert page.evaluate(RANGE) == pytest.approx([15, 25, 10, 30], abs=0.5)
