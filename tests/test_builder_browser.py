@@ -31,11 +31,11 @@ PLACE = """
 """
 MODELS = "[...Bokeh.documents[0]._all_models.values()]"
 # The greatest height of the body that the section shows, in mm.
-SECTION = f"""() => Math.max(...{MODELS}.find((m) => m.name == "section" && m.renderers)
-  .renderers[0].data_source.data.z)"""
+SECTION = f"""() => Math.max(...({MODELS}.find((m) => m.name == "section" && m.renderers)
+  ?.renderers[0].data_source.data.z ?? []))"""
 # The greatest height above O of the body that is turned in 3-D, in R.
 DRAWN = f"""() => {{
-  const {{ profile }} = {MODELS}.find((m) => m.attributes.data?.attributes?.profile).data
+  const profile = {MODELS}.find((m) => m.attributes.data?.attributes?.profile)?.data.profile ?? []  // it comes later
   return Math.max(...new Float32Array(profile.buffer ?? profile).filter((_, i) => i % 2))
 }}"""
 PAPERS, TOY = PRESETS[0], PRESETS[4]

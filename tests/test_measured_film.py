@@ -71,7 +71,7 @@ def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
     one.take_example("slips")
     one.compute()
     one.home.in_link.value = ["link"]
-    monkeypatch.setattr(work, "fit", lambda *_: pytest.fail("fitted anew"))
+    monkeypatch.setattr(work, "fit_both", lambda *_: pytest.fail("fitted anew"))
     other = Measure(Explorer().scene)
     other.filmed.film = one.filmed.film
     assert other.view is not None

@@ -4,11 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from tippe_core import (
-    SUNK,
-    Shape,
-    Top,
-)
+from tippe_core import SUNK, Change, Shape, Top, thresholds
 from tippe_core.types import Array
 
 # Half of the third digit: the paper rounds appendix A's top to three, and with those it is the same body still.
@@ -20,6 +16,11 @@ def fits(shape: Shape, top: Top) -> bool:
     """Whether a, I1 and I3 are those of the shape, to the three digits of appendix A."""
     own = shape.top
     return max(abs(own.a - top.a), abs(own.I1 - top.I1), abs(own.I3 - top.I3)) < ROUNDED
+
+
+def upright(top: Top) -> Change:
+    """At which spins it is stable upright."""
+    return thresholds(top).upright
 
 
 @lru_cache(maxsize=8)

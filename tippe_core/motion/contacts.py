@@ -14,7 +14,7 @@ from ..types import Array, Bools, Indices, Number
 from . import at
 from .dynamics import arrange, forces, kinetic, rates, slip_rate, turning
 from .friction import bounds
-from .impact import held, impact, mobility, moving, pushed, rests
+from .impact import give_impulse, held, impact, mobility, moving, rests
 from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
@@ -174,7 +174,7 @@ def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -
     q = moving(y, i, P, C)
     change = (q[0] + NUDGE * F[0] / (most * N), q[1] + NUDGE * F[1] / (most * N), q[2],
               q[3] + (NUDGE / P.law.radius * M / (twists * N) if P.law.pivots else 0.0))  # fmt: skip
-    pushed(y, i, held(mobility(i, i, y, P, C), change, P.law), P, C)
+    give_impulse(y, i, held(mobility(i, i, y, P, C), change, P.law), P, C)
 
 
 # ---- touching, leaving ----
@@ -201,7 +201,7 @@ def settle(y: Array, event: Event, modes: Indices, P: Record, S: Record, C: Reco
             if not closed[i] or C.u[i, 2] >= -FALLS:
                 break
             q = moving(y, i, P, C)
-            pushed(y, i, impact(mobility(i, i, y, P, C), q, P.law, C.impact), P, C)
+            give_impulse(y, i, impact(mobility(i, i, y, P, C), q, P.law, C.impact), P, C)
     options = np.zeros((2, 3), np.bool_)  # for each contact: open, slip, stick
     moving(y, BALL, P, C)
     for i in range(2):
@@ -287,9 +287,9 @@ def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
     determinant = W[0][0] * W[1][1] - W[0][1] * W[1][0]
     J = np.zeros(4)
     J[2] = (W[0][1] * falls[1] - W[1][1] * falls[0]) / determinant
-    pushed(y, BALL, J, P, C)
+    give_impulse(y, BALL, J, P, C)
     J[2] = (W[1][0] * falls[0] - W[0][0] * falls[1]) / determinant
-    pushed(y, STEM, J, P, C)
+    give_impulse(y, STEM, J, P, C)
 
 
 @compiled

@@ -140,7 +140,7 @@ def mobility(i: int, j: int, y: Array, P: Record, C: Record) -> Array:
 
 
 @compiled
-def pushed(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
+def give_impulse(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
     """y after the impulse and angular impulse J (4,) at contact i; the energy lost is added to the heat."""
     before, impulse = kinetic(y, turning(y, P)[2], P), (J[0], J[1], J[2])
     torque = cross(row(C.rho, i), impulse)
@@ -169,4 +169,4 @@ def rests(y: Array, i: int, P: Record, C: Record) -> bool:
 def halted(y: Array, i: int, P: Record, C: Record) -> None:
     """y with the rest of the slip of contact i removed."""
     q = moving(y, i, P, C)
-    pushed(y, i, held(mobility(i, i, y, P, C), (q[0], q[1], q[2], q[3]), P.law), P, C)
+    give_impulse(y, i, held(mobility(i, i, y, P, C), (q[0], q[1], q[2], q[3]), P.law), P, C)

@@ -79,14 +79,14 @@ def pushed(
     y, e = W.y, np.array(turning(W.y, P)[0])
     above = float(y[of_y.Z] + top.a * e[2] + point[2])  # O is at z_G + a cos(theta)
     if above < -CLOSED:
-        raise TopError("at", float(point[2]), "a height of at least {least:.6g}", least=float(point[2]) - above)
+        raise TopError("at", float(point[2]), "at[2] >= {least:.6g}", least=float(point[2]) - above)
     c, s = np.cos(state.phi), np.sin(state.phi)
     to_space = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     F, r = to_space @ push, top.a * e + to_space @ point
     y[[of_y.VX, of_y.VY, of_y.VZ]] += F
     y[[of_y.LX, of_y.LY, of_y.LZ]] += np.cross(r, F)
     settle(y, (TOUCHES, low), W.modes, P, W.step, W.contacts)  # beyond Painleve's limit too: slide() says so
-    return _state(state, W, P)
+    return _after(state, W, P)
 
 
 def _vector(name: str, given: ArrayLike) -> Array:
@@ -96,7 +96,7 @@ def _vector(name: str, given: ArrayLike) -> Array:
     return found
 
 
-def _state(before: State, W: Record, P: Record) -> State:
+def _after(before: State, W: Record, P: Record) -> State:
     """The State of W.y, with the orientation and place of the one before."""
     y, C, theta, phi = W.y, W.contacts, before.theta, before.phi
     moving(y, BALL, P, C)

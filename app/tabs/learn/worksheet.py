@@ -3,8 +3,8 @@
 from html import escape
 from math import pi
 
+from app.model.bodies import upright
 from app.text import listed, say, spoken
-from tippe_core import thresholds
 
 WHY = {"height": ("why",), "arms": ("why",)}  # questions that also ask for a reason
 STYLE = (
@@ -43,7 +43,7 @@ def worksheet(scene=None):
 def _own(scene):
     """Its numbers, and the spin from which it leaves the upright."""
     top, scales = scene.top, scene.scales
-    change = thresholds(top).upright
+    change = upright(top)
     numbers = {"a": top.a, "I1": top.I1, "I3": top.I3, "R": 1e3 * scales.R, "M": 1e3 * scales.M}
     told = [say("worksheet.own.top", **numbers)]
     if top.a > 0 and change.stable in ("below", "always"):
