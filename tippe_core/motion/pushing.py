@@ -79,7 +79,7 @@ def pushed(
     y, e = W.y, np.array(turning(W.y, P)[0])
     above = float(y[of_y.Z] + top.a * e[2] + point[2])  # O is at z_G + a cos(theta)
     if above < -CLOSED:
-        raise TopError("at", float(point[2]), "at[2] >= {least:.6g}", least=float(point[2]) - above)
+        raise TopError("at", float(point[2]), "z >= {least:.6g}", least=float(point[2]) - above)
     c, s = np.cos(state.phi), np.sin(state.phi)
     to_space = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     F, r = to_space @ push, top.a * e + to_space @ point

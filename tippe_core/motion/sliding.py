@@ -190,8 +190,8 @@ class Sliding:
         if np.any(np.diff(t) < 0):
             raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
         if t[0] < self._last:
-            raise TopError("times", times, "{first:.10g} to {last:.10g}", "Friction has no way back.",
-                           code="outside-times", first=self._last, last=np.inf)  # fmt: skip
+            raise TopError("times", times, "{first:.10g} to {last:.10g}", code="outside-times", first=self._last,
+                           last=np.inf)  # fmt: skip
         rows = np.zeros(len(t), SAMPLE)
         if not self.ended:
             self._W.samples = 0

@@ -115,7 +115,7 @@ class Map:
             raise TopError("cells", self.cells, f"3, 6, 9, ... {MOST_CELLS}")
         if self.cells**2 * self.seconds > MOST_WORK:
             most = 3 * int((MOST_WORK / self.seconds) ** 0.5 / 3)
-            raise TopError("cells", self.cells, f"cells <= {most} ~ ({MOST_WORK:g}/seconds)^1/2")
+            raise TopError("cells", self.cells, f"3, 6, 9, ... {most}")
 
     def _check_possible(self, name: str) -> None:
         if name not in QUANTITIES:
