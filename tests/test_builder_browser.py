@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from axe import DARK, check
 from playwright.sync_api import expect
-from visiting import Visit, texts, wait
+from visiting import IN_SIGHT, Visit, texts, wait
 
 from app.model.build.inside import inside
 from app.state.codecs import Body
@@ -61,6 +61,8 @@ def choose(page, preset):
 
 
 def drag(page, start, end):
+    page.locator("[data-figure=section]").first.evaluate(IN_SIGHT)
+
     def places():
         return [page.evaluate(PLACE, ["section", *place]) for place in (start, end)]
 
