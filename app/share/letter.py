@@ -78,7 +78,7 @@ def letter(scene, link="", look=None):
     }
     return PAGE.substitute(
         lang=spoken(),
-        chosen=COLOURS["chosen"],
+        accent=COLOURS["accent"],
         title=say("share.letter.title", K_J=scene.constants.K_J, K_R=scene.constants.K_R),
         explorer=say("main.title"),
         notices=(BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),

@@ -85,10 +85,10 @@ class Numbers:
 
     def lay_out(self, parts):
         """Replaces the inputs; show() is to follow."""
-        each_part = flat(parts)
-        choices = [each for part in each_part if "options" in (each := part.get("choice") or part)]
+        all_parts = flat(parts)
+        choices = [each for part in all_parts if "options" in (each := part.get("choice") or part)]
         self._options = {each["name"]: [value for value, *_ in each["options"]] for each in choices}
-        self._numbers = {part["name"] for part in each_part if part["kind"] == "number"}
+        self._numbers = {part["name"] for part in all_parts if part["kind"] == "number"}
         self._parts = json.dumps(parts)
 
     def _asked(self, event):

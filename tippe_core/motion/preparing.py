@@ -13,7 +13,8 @@ from .contacts import CLOSED, settle
 from .dynamics import arrange, turning
 from .friction import Friction
 from .kinds import STARTS
-from .records import BALL, MOTION, NO_ONE, OPEN, PROBLEM, SLIP, STEM, Record, new
+from .poses import sample_at
+from .records import BALL, MOTION, NO_ONE, OPEN, PROBLEM, SAMPLE, SLIP, STEM, Record, new
 from .standing import leaned
 
 SHARE = 0.1  # the tolerance of one step, in units of rtol
@@ -137,6 +138,20 @@ def y_of(
     p, L = sin_half * turn, complex(L1, c * L2 - s * L3) * turn
     return np.array([p.real, p.imag, 0.0, cos_half, chi, L.real, L.imag, s * L2 + c * L3,
                      v.real, v.imag, place.real, place.imag, t, heat, 0.0, 0.0])  # fmt: skip
+
+
+def state_of(W: Record, P: Record) -> State:
+    """The State at W.y, which beginning() takes; without z and vz. On the vertical axis 1' is along the horizontal part
+    of omega, as it is just after the pole."""
+    here = new(SAMPLE)
+    sample_at(W, P, OPEN, OPEN, here)
+    theta, phi, psi, (w1, w2, w3), v = here.theta, here.phi, here.psi, here.omega, complex(*here.velocity[:2])
+    if theta in (0.0, np.pi):
+        pole = np.cos(theta)
+        lean = np.angle(pole * (w1 + 1j * pole * w2))
+        w1, w2, phi, psi, v = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean, v * np.exp(-1j * lean)
+    x, y, _ = here.com
+    return State(theta, w1, w2, w3, phi, psi, x, y, v.real, v.imag)
 
 
 def motion(y: Array, angles: Array) -> Record:

@@ -22,9 +22,8 @@ from . import preparing
 from .contacts import CLOSED, settle
 from .dynamics import turning
 from .friction import LAWS, Friction
-from .impact import moving
 from .kinds import TOUCHES
-from .records import BALL, Record
+from .records import Record
 
 STRONGEST = 1e3  # M (gR)^1/2: it moves G of a toy at 400 m/s
 RTOL = 1e-9
@@ -97,19 +96,9 @@ def _vector(name: str, given: ArrayLike) -> Array:
 
 
 def _after(before: State, W: Record, P: Record) -> State:
-    """The State of W.y, with the orientation and place of the one before."""
-    y, C, theta, phi = W.y, W.contacts, before.theta, before.phi
-    moving(y, BALL, P, C)
-    _, w, L3 = turning(y, P)
-    if theta in (0.0, np.pi) and np.hypot(w[0], w[1]) > 0.0:
-        phi = float(np.arctan2(w[1], w[0]))
-    psi = before.psi + (before.phi - phi) * np.sign(np.cos(theta)) if phi != before.phi else before.psi
-    turned, v = complex(w[0], w[1]) * np.exp(-1j * phi), complex(y[of_y.VX], y[of_y.VY]) * np.exp(-1j * phi)
-    c, s = np.cos(theta), np.sin(theta)
-    omega2 = 0.0 if theta in (0.0, np.pi) else c * turned.imag + s * w[2]
-    i = preparing.lower(P, theta)  # without z a State is on this contact
+    """The State of W.y, exactly at the tilt and place of the one before."""
+    y, C, after = W.y, W.contacts, preparing.state_of(W, P)
+    i = preparing.lower(P, before.theta)  # without z a State is on this contact
     free = abs(C.height[i]) > CLOSED or abs(C.u[i, 2]) > CLOSED
-    return replace(
-        before, theta_dot=turned.real, omega2=omega2, omega3=L3 / P.I3, phi=phi, psi=psi, vx=v.real, vy=v.imag,
-        z=float(y[of_y.Z]) if free else None, vz=float(y[of_y.VZ]) if free else None,
-    )  # fmt: skip
+    return replace(after, theta=before.theta, x=before.x, y=before.y, z=float(y[of_y.Z]) if free else None,
+                   vz=float(y[of_y.VZ]) if free else None)  # fmt: skip

@@ -1,19 +1,20 @@
 """Rolling on the ball as a part of a motion with friction, by the exact motion of rolling.py."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple, Self, cast
 
 import numpy as np
 
-from ..paper.constants import State, versines
+from ..paper.constants import versines
 from ..paper.top import Top
 from ..types import Array
 from . import at, events, preparing
 from .contacts import SLACK, TOUCH, tilt_guards
 from .kinds import RIM, SLIPS, TOUCHES, Event
-from .poses import ROLLING, sample_at
-from .records import BALL, OPEN, SAMPLE, STEM, Record, new
+from .poses import ROLLING
+from .records import BALL, SAMPLE, STEM, Record
 from .rolling import Rolling
 from .smooth import first_below, zeros
 
@@ -36,7 +37,7 @@ class RollingPart(NamedTuple):
     @classmethod
     def of(cls, top: Top, W: Record, P: Record) -> Self:
         """The part that begins at W.y."""
-        rolling, begins = Rolling(top, None, _state(W, P)), float(W.y[at.TIME])
+        rolling, begins = Rolling(top, None, replace(preparing.state_of(W, P), vx=None, vy=None)), float(W.y[at.TIME])
         ends, event = _ends(rolling, P)
         notes = _noted(rolling, min(rolling.period, ends))
         return cls(rolling, begins, begins + ends, event, float(W.y[at.HEAT]), notes)
@@ -63,18 +64,6 @@ class RollingPart(NamedTuple):
                                 one.omega[1], u, complex(*one.com[1, :2]), self.ends, self.heat)  # fmt: skip
         W.angles[:] = 0.0, one.phi[1]
         preparing.on_table(W, P, BALL)
-
-
-def _state(W: Record, P: Record) -> State:
-    """The State at W.y, without the velocity of G."""
-    here = new(SAMPLE)
-    sample_at(W, P, OPEN, OPEN, here)
-    theta, phi, psi, (w1, w2, w3) = here.theta, here.phi, here.psi, here.omega
-    if theta in (0.0, np.pi):
-        pole = np.cos(theta)  # 1' along omega, as it is just after the pole
-        lean = np.angle(pole * (w1 + 1j * pole * w2))
-        w1, w2, phi, psi = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean
-    return State(theta, w1, w2, w3, phi, psi, *here.com[:2])
 
 
 def _ends(rolling: Rolling, P: Record) -> tuple[float, Event]:

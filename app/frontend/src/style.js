@@ -8,7 +8,7 @@ export const style = `
 .picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene, #f1efea); }
 .picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
-.picture canvas:focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: -2px; }
+.picture canvas:focus-visible { outline: 2px solid var(--focus, ${colours.accent}); outline-offset: -2px; }
 .picture:not([data-drawn]) .labels { visibility: hidden; }
 .labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: var(--scene-ink, #1d2733); }
 .labels span { position: absolute; left: 0; top: 0; white-space: nowrap; will-change: transform; }
@@ -18,7 +18,7 @@ export const style = `
 .labels .axis { font: calc(15px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
 .labels .axis sub, .labels .axis sup, .readout sub, .readout sup { font-size: 70%; line-height: 0; }
 .labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
-.labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent, ${colours.chosen});
+.labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent, ${colours.accent});
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
 @media (hover: hover) { .labels .handle::before { content: ""; position: absolute; inset: -24px; border-radius: 50%; } } /* reached without aiming */
 .labels .handle.moves:not(:hover, :focus-visible, :active) { opacity: 0; }
@@ -37,11 +37,11 @@ export const style = `
   height: 34px; min-width: 34px; padding: 0 6px; cursor: pointer; display: inline-flex; align-items: center; justify-content: center; }
 .bar select option { color: var(--scene-ink, #1d2733); background: var(--card, #fff); }
 .bar button:hover, .bar select:hover { background: color-mix(in srgb, currentColor 8%, transparent); }
-.bar button.play { background: ${colours.chosen}; border-color: ${colours.chosen}; color: #fff; min-width: 44px; }
+.bar button.play { background: ${colours.accent}; border-color: ${colours.accent}; color: #fff; min-width: 44px; }
 .bar button.play:hover { background: #005f95; }
-.bar :is(button, select, input):focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: 2px; }
+.bar :is(button, select, input):focus-visible { outline: 2px solid var(--focus, ${colours.accent}); outline-offset: 2px; }
 .bar svg { width: 18px; height: 18px; fill: currentColor; display: block; }
-.bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: var(--focus, ${colours.chosen}); height: 34px; margin: 0; cursor: pointer; }
+.bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: var(--focus, ${colours.accent}); height: 34px; margin: 0; cursor: pointer; }
 .time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733);
   font-variant-numeric: tabular-nums; white-space: nowrap; box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .time sup, .scales sup { font-size: 75%; line-height: 0; }
@@ -50,7 +50,7 @@ export const style = `
   border: 1px solid var(--line); cursor: pointer; white-space: nowrap; user-select: none; }
 .bar .shows label:not(:has(input:checked)) { opacity: 0.75; border-style: dashed; }
 .bar .shows input { position: absolute; opacity: 0; width: 1px; height: 1px; }
-.bar .shows label:has(input:focus-visible) { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: 2px; }
+.bar .shows label:has(input:focus-visible) { outline: 2px solid var(--focus, ${colours.accent}); outline-offset: 2px; }
 .bar .swatch { width: 11px; height: 11px; border-radius: 3px; background: var(--swatch); }
 .bar .shows label:not(:has(input:checked)) .swatch { background: transparent; box-shadow: inset 0 0 0 2px var(--swatch); }
 .readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733);
@@ -104,6 +104,6 @@ h2 { font-size: 1.1em; margin: 0 0 6px; outline-offset: 4px; }
 table { border-collapse: collapse; margin: 0 0 12px; } th, td { text-align: left; padding: 4px 14px 4px 0; vertical-align: top; font-weight: normal; } th { font-weight: 600; }
 .stop { position: fixed; z-index: 3000; width: min(320px, calc(100vw - 28px)); } .stop p { margin: 0 0 10px; }
 .stop div { display: flex; align-items: center; gap: 8px; } .stop .count { flex: 1; color: var(--faint, #5b6875); }
-.stop .next { background: ${colours.chosen}; border-color: ${colours.chosen}; color: #fff; }
-.ring { position: fixed; z-index: 2999; border: 3px solid ${colours.chosen}; border-radius: 10px; box-sizing: border-box; pointer-events: none; box-shadow: 0 0 0 2px #fff; }
+.stop .next { background: ${colours.accent}; border-color: ${colours.accent}; color: #fff; }
+.ring { position: fixed; z-index: 2999; border: 3px solid ${colours.accent}; border-radius: 10px; box-sizing: border-box; pointer-events: none; box-shadow: 0 0 0 2px #fff; }
 `;

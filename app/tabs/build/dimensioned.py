@@ -29,7 +29,7 @@ class Dimensioned:
         draw(fig, Segment, source=self.lines, x0="x", y0="z", x1="x1", y1="z1", line_color="colour", line_width="width")
         draw(fig, Scatter, "x", "z", source=self.tips, marker="triangle", size=SIZE, angle="angle",
              fill_color="colour", line_color=None)  # fmt: skip
-        for source, colour in ((self.said, INK), (self.held, COLOURS["chosen"])):
+        for source, colour in ((self.said, INK), (self.held, COLOURS["accent"])):
             draw(fig, Text, "x", "z", source=source, text="text", x_offset="dx", y_offset="dy", text_color=colour,
                  text_align="align", text_baseline="middle", text_font_size="12px", text_font_style="bold",
                  background_fill_color=PAPER, background_fill_alpha=0.8, padding=2)  # fmt: skip
@@ -44,7 +44,7 @@ class Dimensioned:
             if dimension is None or not (measure.is_shown or measure.name == held):
                 continue
             (x, z), (x1, z1) = ((1e3 * a, 1e3 * b) for a, b in (measure.start, measure.end))
-            colour, thick = (COLOURS["chosen"], 2) if measure.name == held else (FAINT, 1)
+            colour, thick = (COLOURS["accent"], 2) if measure.name == held else (FAINT, 1)
             said = words[measure.name == held]
             text = self._text(dimension, value_of(shape, measure.name))
             if measure.is_left:

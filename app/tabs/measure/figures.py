@@ -77,7 +77,7 @@ class Pictures:
         self._parts = {name: _Picture(name, series, x_range, high) for name, series in data.series.items()}
         figures = [fig for part in self._parts.values() for fig in (part.fig, part.rest)]
         spans = [
-            Span(dimension="height", level="overlay", line_color=COLOURS["chosen"], line_width=1.5) for _ in figures
+            Span(dimension="height", level="overlay", line_color=COLOURS["accent"], line_width=1.5) for _ in figures
         ]
         self._starts = [Span(location=start, dimension="height", line_color=INK, line_width=1.5, line_dash=[5, 4])
                         for _ in figures]  # fmt: skip

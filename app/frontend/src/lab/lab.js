@@ -14,6 +14,7 @@ import { style } from "./style.js";
 import { Time } from "./time.js";
 import { SHOWS } from "./top.js";
 import { Words } from "./words.js";
+import { followLook } from "../controls/look.js";
 import { coalesce, debounce, float32 } from "../data.js";
 import { Press } from "../widgets/press.js";
 
@@ -51,18 +52,12 @@ class Lab {
     this.frame = part("div", { class: "frame" }, this.element);
     for (const by of ["pointerdown", "keydown"]) this.strip.element.addEventListener(by, () => this.tells());
     el.replaceChildren(part("style", {}, style), this.frame);
-    this.look();
+    this.unfollow = followLook(this.frame, () => {
+      this.strip.draw();
+      this.answer.draw();
+    });
     this.show = coalesce(() => this.showNow());
   }
-
-  // Takes the page's look: light or dark, and large.
-  look = () => {
-    const look = document.documentElement.dataset.look ?? "";
-    this.frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
-    this.frame.toggleAttribute("data-large", look.endsWith("large"));
-    this.strip.draw();
-    this.answer.draw();
-  };
 
   ask(name, value) {
     if (name === "table") {
@@ -208,7 +203,7 @@ class Lab {
     this.tell.cancel();
     window.removeEventListener("tippe:command", this.tells);
     for (const gone of [this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
-    window.removeEventListener("tippe:look", this.look);
+    this.unfollow();
   }
 }
 
@@ -221,7 +216,6 @@ export function renderLab({ model, el, view }) {
   }
   for (const name of ["level", "speed", ...SHOWS]) model.on(name, lab.showLevel);
   for (const name of ["time", "playing"]) model.on(name, () => lab.hear());
-  window.addEventListener("tippe:look", lab.look);
   window.addEventListener("tippe:command", lab.tells);
   lab.showLevel();
   view.tippe = { dispose: () => lab.leave(), hold: (held) => lab.asking.hold(held) };

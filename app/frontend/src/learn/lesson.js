@@ -1,5 +1,6 @@
 // The lesson, step by step: a question about a top after a short look at it, and the answer after the rest of the run.
 // Python sends the words and the runs; once they are there, the page needs no server.
+import { followLook } from "../controls/look.js";
 import { Curves } from "../lab/curves.js";
 import { part } from "../lab/parts.js";
 import { Time } from "../lab/time.js";
@@ -44,20 +45,12 @@ class Lesson {
       this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.phone.follows, this.more);
     this.frame = part("div", { class: "frame", tabindex: -1 }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
-    this.look();
+    this.unfollow = followLook(this.frame, () => this.draw());
     this.show = coalesce(() => this.showNow());
   }
 
-  look = () => {
-    const look = document.documentElement.dataset.look ?? "";
-    this.frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
-    this.frame.toggleAttribute("data-large", look.endsWith("large"));
-    this.draw();
-  };
-
   listen() {
     const listening = (this.listening = new AbortController()), { signal } = listening;
-    window.addEventListener("tippe:look", this.look, { signal });
     window.addEventListener("tippe:lost", this.onLost, { signal });
     window.addEventListener("tippe:back", this.onLost, { signal });
     // captured before a focused tab of the head can use an arrow key for itself
@@ -332,6 +325,7 @@ class Lesson {
 
   leave() {
     this.show.cancel();
+    this.unfollow();
     for (const gone of [this.time, this.stage, this.bar, this.graph]) gone.leave();
     this.listening?.abort();
   }

@@ -1,4 +1,5 @@
 // Fig. 6: which motions roll, the selected one with its bead at the time of the clock, and where it goes if it slips.
+import { followLook } from "../controls/look.js";
 import { coalesce, fill, float32, local } from "../data.js";
 import { spotOf, valueAt } from "../figures/curves.js";
 import { timeOf } from "../motion/clock.js";
@@ -60,16 +61,9 @@ export class PlaneFigure {
     this.update = coalesce(() => this.show());
     this.resizing = new ResizeObserver(() => this.update());
     this.resizing.observe(this.drawing);
-    this.look();
+    this.unfollow = followLook(this.frame, () => this.update());
     this.report();
   }
-
-  look = () => {
-    const look = document.documentElement.dataset.look ?? "";
-    this.frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
-    this.frame.toggleAttribute("data-large", look.endsWith("large"));
-    this.update();
-  };
 
   // Sets a value of the model. While Bokeh is connecting again it throws: then the figure goes on, as without a server.
   set(name, value) {
@@ -176,6 +170,7 @@ export class PlaneFigure {
     this.update.cancel();
     this.resizing.disconnect();
     this.hand.leave();
+    this.unfollow();
   }
 }
 
@@ -185,7 +180,6 @@ export function renderPlane({ model, el, view }) {
   const figure = new PlaneFigure({ model, el }), listening = new AbortController(), { signal } = listening;
   for (const name of ["state", "motion", "limits", "field", "path"]) model.on(name, figure.update);
   window.addEventListener(`tippe:clock:${model.clock}`, ({ detail: { t } }) => figure.at(t), { signal });
-  window.addEventListener("tippe:look", figure.look, { signal });
   const dispose = () => {
     listening.abort();
     figure.leave();

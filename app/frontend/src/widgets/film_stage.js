@@ -15,7 +15,7 @@ const STYLE = `<style>
   .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--scene-faint, #55606c) }
   button { position: absolute; right: 16px; bottom: 12px; width: 44px; height: 44px; border: 0; border-radius: 50%; cursor: pointer;
     display: grid; place-items: center; background: var(--scene-ink, #1b2430); color: var(--scene, #fff) }
-  button:focus-visible { outline: 3px solid var(--focus, ${colours.chosen}); outline-offset: 2px }
+  button:focus-visible { outline: 3px solid var(--focus, ${colours.accent}); outline-offset: 2px }
   [hidden] { display: none !important }</style>`;
 const PLAY = "M4 2l12 7-12 7z", PAUSE = "M4 2h4v14H4zm7 0h4v14h-4z";
 

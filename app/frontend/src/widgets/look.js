@@ -33,7 +33,7 @@ function setVariables(model, name, dark) {
   const values = {
     ...Object.fromEntries(Object.keys(onDark).map((each) => [`--${each}`, quantities[each]])),
     "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper,
-    "--focus": quantities.chosen, "--link": quantities.accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
+    "--focus": quantities.accent, "--link": quantities.accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
   style.colorScheme = dark ? "dark" : "light"; // for what the browser draws itself

@@ -19,8 +19,8 @@ const STYLE = `<style>
   .group { font-size: calc(17px * var(--type, 1)); font-weight: 600 } .small { font-size: calc(12px * var(--type, 1)) } .known { cursor: pointer; outline: none }
   .known .shape { fill: color-mix(in srgb, var(--ink, #22303c) 78%, var(--card, #fff)); stroke: var(--card, #fff); stroke-width: 1.5 }
   .known text { font-weight: 600; paint-order: stroke; stroke: color-mix(in srgb, var(--card, #fff) 70%, transparent); stroke-width: 3 } .ring { fill: none; stroke-width: 3.5 } .known:hover .shape, .known:focus .shape { fill: var(--ink, #22303c) }
-  .known:focus-visible .ring.of { stroke: var(--focus, ${colours.chosen}); stroke-width: 3 } .here { cursor: grab; touch-action: none; outline: none }
-  .here .grip { fill: transparent } .here .ring, .here .line { stroke: var(--link, ${colours.chosen}) } .chosen .ring.of { stroke: var(--ink, #22303c) }
+  .known:focus-visible .ring.of { stroke: var(--focus, ${colours.accent}); stroke-width: 3 } .here { cursor: grab; touch-action: none; outline: none }
+  .here .grip { fill: transparent } .here .ring, .here .line { stroke: var(--link, ${colours.accent}) } .chosen .ring.of { stroke: var(--ink, #22303c) }
   </style>`;
 
 /** type: the enlargement of the text. @typedef {{ wide: number, high: number, type: number }} Size @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
