@@ -293,9 +293,9 @@ async def send_files(server):
     """Bombs, what is no file or too large, 300 that are no top (20 MB); then a good one."""
     visitor, pid = await Visitor.enter(f"{server.url}?tab=build-a-top"), server.process.pid
     await visitor.ready()
-    while visitor.component("TextFile") is None:
+    while not visitor.find("TextFile"):
         visitor.note((await visitor.receive())[1])
-    file, before = visitor.component("TextFile"), most_megabytes(pid)
+    [file], before = visitor.find("TextFile"), most_megabytes(pid)
     for model, attribute, bomb in bombs(file, visitor.find("Head")[0]):
         kind, content = await visitor.answer(await visitor.set(model, attribute, bomb))
         assert kind == "ERROR" and content["traceback"] is None
@@ -305,8 +305,10 @@ async def send_files(server):
     assert most_megabytes(pid) - before < 100
     before = megabytes(pid)
     for i in range(300):
-        kind, _ = await visitor.answer(await visitor.set(file, "sent", [f"{i}".ljust(LARGEST_FILE), i, LARGEST_FILE]))
-        assert kind == "OK"
+        kind, content = await visitor.answer(
+            await visitor.set(file, "sent", [f"{i}".ljust(LARGEST_FILE), i, LARGEST_FILE])
+        )
+        assert kind == "OK", content
     assert megabytes(pid) - before < 10
     await visitor.set(file, "sent", [TOP, 301, len(TOP)])
     while "23.45" not in json.dumps((await visitor.receive())[1]):

@@ -162,8 +162,8 @@ async def closes(page, first, second):
     """The teacher closes the class, and both phones, the first of them in German, are told."""
     await wishes(page, "section", "teach")
     label = say("teach.vote.close")
-    await page.until(lambda: any(each.get("label") == label for _, each in page.visitor.models.values()))
-    await page.visitor.click(label)
+    await page.until(lambda: any(page.now(each, "label") == label for each in page.visitor.find("Button", "label")))
+    await page.click(page.labelled("Button", label))
     await hears(first, say("teach.student.closed", "de"))
     await hears(second, say("teach.student.closed"))
 

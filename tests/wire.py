@@ -40,6 +40,9 @@ class Closed(Exception):
     """The server closed the connection, with this code and reason."""
 
 
+OPEN = []  # the Visitors of the coroutine that runs
+
+
 @dataclass
 class Visitor:
     """The browser's side of a session. models: {id: (type, attributes)}, the present models of the page."""
@@ -66,6 +69,7 @@ class Visitor:
                               request_timeout=300, connect_timeout=300)  # fmt: skip
         socket = await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**27)
         visitor = cls(socket, token)
+        OPEN.append(visitor)
         visitor.socket.protocol.set_nodelay(True)  # as browsers do, because a message consists of several writes
         kind, _, _ = await visitor.receive()
         assert kind == "ACK"
@@ -144,18 +148,6 @@ class Visitor:
     async def ready(self):
         """Reports that the page is complete, as a browser does; then the server sends what it creates afterwards."""
         event = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
-        await self.say("PATCH-DOC", {"events": [
-            {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
-        ]})  # fmt: skip
-
-    async def click(self, label):
-        """Clicks the button with this label."""
-        [data] = [id for id, (name, attributes) in self.models.items()
-                  if name.startswith("Button") and attributes.get("label") == label]  # fmt: skip
-        [button] = [id for id, (_, attributes) in self.models.items()
-                    if isinstance(attributes.get("data"), dict) and attributes["data"].get("id") == data]  # fmt: skip
-        values = [["model", {"id": button}], ["node", "click"], ["data", {"type": "map", "entries": []}]]
-        event = {"type": "event", "name": "dom_event", "values": {"type": "map", "entries": values}}
         await self.say("PATCH-DOC", {"events": [
             {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
         ]})  # fmt: skip
@@ -262,15 +254,8 @@ class Page:
         await self.until(lambda: message in self._replies)
 
     async def click(self, button):
-        """Clicks a Panel button, and waits for the answer."""
-        [view] = [id for id, (_, attributes) in self.visitor.models.items()
-                  if isinstance(attributes.get("data"), dict) and attributes["data"].get("id") == button]  # fmt: skip
-        values = {"type": "map", "entries": [["model", {"id": view}], ["node", "click"], ["data", None]]}
-        event = {"type": "event", "name": "dom_event", "values": values}
-        message = await self.visitor.say("PATCH-DOC", {"events": [
-            {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
-        ]})  # fmt: skip
-        await self.until(lambda: message in self._replies)
+        """Clicks a button, and waits for the answer."""
+        await self.set(button, "clicks", self.now(button, "clicks", 0) + 1)
 
     async def leave(self):
         """Closes the page."""
@@ -283,7 +268,18 @@ class Page:
         self.visitor.socket.protocol.stream.close()
 
 
+async def left_if_it_fails(coroutine, seconds):
+    """A coroutine with a time limit; if it fails, its visitors leave, so that the next test finds the server empty."""
+    OPEN.clear()
+    try:
+        return await asyncio.wait_for(coroutine, seconds)
+    except BaseException:
+        for visitor in OPEN:
+            visitor.socket.protocol.stream.close()
+        raise
+
+
 def run(coroutine, seconds=120):
     """Runs a coroutine with a time limit, in its own thread, because Playwright's loop runs in that of the tests."""
     with ThreadPoolExecutor(1) as thread:
-        return thread.submit(asyncio.run, asyncio.wait_for(coroutine, seconds)).result()
+        return thread.submit(asyncio.run, left_if_it_fails(coroutine, seconds)).result()

@@ -76,6 +76,7 @@ class Run:
 
     def result(self) -> Result:
         """The result of the work, or the exception that it raised, to be passed to another thread."""
+        self._rested = self._gave_way = time.monotonic()  # it may have waited for its turn
         try:
             return self.work(self) if self._here() else Stopped()
         except Exception as error:
