@@ -27,6 +27,7 @@ TEXTS = {
     "slip": ("0", "-5", "1e5", *HUGE), "mu_k": ("0", "-1", ".5", "1", "50", *HUGE), "gamma": ("0", "-1"),
     "eps": ("0", "-1", "1e300"), "patch": ("0", "-1", "50", *HUGE),
     "land": ("stop",), "stem": ("no",),
+    "push": ("2_0_0_0_1_0_0", "2_0_0_900_0_0_1", "59_0_0_0_1_0_0", "2_0_0_0_1e5_0_0", ".1_0_0_5_0_0_3~5_0_0_5_.2_0_0"),
 }  # fmt: skip
 """{name in an address: values at and beyond its limits}."""
 BY = {"KJ": "share", "KR": "share", "e": "share", "E": "E", "th": "state", "thd": "state", "w2": "state", "w3": "state",

@@ -5,6 +5,7 @@ import html
 import numpy as np
 
 from app.model.motion import RTOL, THROWN
+from app.model.pushes import size_words
 from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.typeset import power
@@ -34,6 +35,15 @@ def in_force(start, table):
     if kind == "contact":
         return say("planes.force.contact", mu=law.mu, patch=start.patch)
     return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
+
+
+def push_words(pushes):
+    """Pushes in a few words."""
+    if not pushes:
+        return say("lab.pushed.none")
+    last = pushes[-1]
+    return say(f"lab.pushed.{'one' if len(pushes) == 1 else 'several'}", size=size_words(last), time=last.t,
+               count=len(pushes))  # fmt: skip
 
 
 def part(settings):
@@ -91,6 +101,8 @@ def outcome_words(goes, scales):
 def ball_words(scene):
     """What friction would do to the ball alone, and how far that applies to this run."""
     settings, sliding = scene.start, scene.motions["ordinary"]
+    if settings.pushes:
+        return ""  # it is said of the start alone
     if settings.is_frictionless:
         heat = sliding.trajectory.heat[-1] if sliding else 0.0
         if heat > ROUNDING:
@@ -129,7 +141,8 @@ def run_words(settings, table):
     touches = "stem" if settings.edge else "ball"
     start = "start" if settings.rolling is None else "rolling"
     turns = state.omega3 * settings.scales.angular_velocity / (2 * np.pi)
-    return say("planes.run.of", a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
+    pushes = f", {push_words(settings.pushes)}" * bool(settings.pushes)
+    return say("planes.run.of", pushes=pushes, a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
                body=say(f"planes.run.{touches}", part=part(settings)), rtol=power(RTOL),
                law=in_force(settings, table),
                start=say(f"planes.run.{start}", tilt=degrees(state.theta), spin=turns, slip=settings.slip))  # fmt: skip
