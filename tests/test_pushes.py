@@ -17,6 +17,7 @@ from app.model.setup import Push, start_of
 from app.model.start import Start, arrives
 from app.model.story import story
 from app.server.messages import CHANGES
+from app.share.saved_runs import Shown, caption, run_csv, run_python
 from app.state.codecs import Pushes
 from app.state.keep import explorer_of, kept, read
 from app.text import speaking
@@ -120,6 +121,21 @@ def test_what_each_keeps_counts_from_the_last_push():
     assert set(energy[since, 0]) == {KINDS.index("kept")}
     height = 1e3 * START.scales.R * (motion.trajectory.ledger.kinetic + motion.trajectory.com[:, 2])
     assert np.all(energy[since, 1] == pytest.approx(height[i])) and abs(energy[0, 1] - energy[-1, 1]) > 1
+
+
+@pytest.mark.parametrize("table", ["ordinary", "rough", "ice"])
+def test_the_python_that_is_saved_computes_it_from_the_last_push_on(table, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    motion, found = motion_on(table, replace(PUSHED, pushes=(SOFT, LATER), seconds=3.6)), {}
+    shown = Shown(table, motion.trajectory, motion.start)
+    exec(run_python(shown), found)
+    row = motion.pushes[-1][1]
+    t, theta = motion.trajectory.t[row:], motion.trajectory.theta[row:]
+    again = np.interp(t, found["motion"].t, found["motion"].theta)
+    assert found["motion"].t[0] == t[0] and again == pytest.approx(theta, abs=2e-3)  # between the rows
+    assert "2 pushes, the last of 1 mN s at 3.10 s" in caption(shown)[1]
+    assert b"push 2 = 1 mN s at 3.1 s" in run_csv(shown)
 
 
 def test_the_story_tells_it_in_both_languages_and_names_no_other_cause():

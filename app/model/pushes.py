@@ -20,6 +20,15 @@ def size_words(push: Push) -> str:
     return say(f"lab.pushed.{'small' if push.size < 1e3 else 'large'}", small=push.size, large=1e-3 * push.size)
 
 
+def push_words(pushes: tuple[Push, ...]) -> str:
+    """Pushes in a few words."""
+    if not pushes:
+        return say("lab.pushed.none")
+    last = pushes[-1]
+    return say(f"lab.pushed.{'one' if len(pushes) == 1 else 'several'}", size=size_words(last), time=last.t,
+               count=len(pushes))  # fmt: skip
+
+
 def with_pushes(times: Array, start: Setup) -> Array:
     """The times of a run, and those of its pushes up to the last of them."""
     pushes = np.array([push.t / start.scales.time for push in start.pushes])
@@ -30,13 +39,19 @@ def state_after(start: Setup, moved: Trajectory, push: Push, friction: Friction,
     """The State after a push at the last instant of a motion. Raises TopError."""
     if push.size > (most := STRONGEST * start.impulse):
         raise TopError("push", push.size, "at most {most:.10g} in size", code="too-large", most=most)
-    state = moved.at(moved.t[-1])
-    if moved.supports[-1][1] == "none":
-        state = replace(state, z=float(moved.com[-1, 2]), vz=float(moved.velocity[-1, 2]))
+    state = state_of(moved, len(moved) - 1)
     c, s = np.cos(state.theta), np.sin(state.theta)
     x, y, z = np.array(push.point) / (1e3 * start.scales.R)
     place = [x, c * y - s * z, s * y + c * z]
     return pushed(start.top, state, np.array(push.impulse) / start.impulse, place, friction, edge)
+
+
+def state_of(moved: Trajectory, i: int) -> State:
+    """The State at one instant of a motion, also in flight."""
+    state = moved.at(moved.t[i])
+    if [on for since, on in moved.supports if since <= moved.t[i]][-1] != "none":
+        return state
+    return replace(state, z=float(moved.com[i, 2]), vz=float(moved.velocity[i, 2]))
 
 
 def joined(first: Trajectory | None, then: Trajectory) -> Trajectory:

@@ -17,12 +17,13 @@ from app.model.inputs import INPUTS
 from app.model.lab.allowed import LIMITS, SHOWN
 from app.model.lab.examples import EXAMPLES
 from app.model.lab.lab import FIRST, Lab
+from app.model.pushes import push_words
 from app.model.setup import OF_LAW, shape_of
 from app.state import asked
 from app.state.codecs import Pushes
 from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
-from app.tabs.lab.words import is_caught, notes, push_words
+from app.tabs.lab.words import is_caught, notes
 from app.text import listed, say, speaking, spoken
 from app.widgets.controls import valid
 from app.widgets.failure import after

@@ -5,7 +5,7 @@ import html
 import numpy as np
 
 from app.model.motion import RTOL, THROWN
-from app.model.pushes import size_words
+from app.model.pushes import push_words
 from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.typeset import power
@@ -35,15 +35,6 @@ def in_force(start, table):
     if kind == "contact":
         return say("planes.force.contact", mu=law.mu, patch=start.patch)
     return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
-
-
-def push_words(pushes):
-    """Pushes in a few words."""
-    if not pushes:
-        return say("lab.pushed.none")
-    last = pushes[-1]
-    return say(f"lab.pushed.{'one' if len(pushes) == 1 else 'several'}", size=size_words(last), time=last.t,
-               count=len(pushes))  # fmt: skip
 
 
 def part(settings):
@@ -162,8 +153,9 @@ def table_words(scene):
             motion = scene.motions[table]
             cells.append(f"<td>{drift_words(name, motion) if motion else say('planes.drift.nothing')}</td>")
         rows.append(f"<tr><td>{say(f'planes.survives.{name}')}</td>{''.join(cells)}</tr>")
+    of = say(f"planes.drift.{'since' if scene.start.pushes else 'of'}")
     return (f"<table><tr><th>{say('planes.drift.measured')}</th>{head}</tr>{''.join(rows)}</table>"
-            f'<div class="key">{say("planes.drift.of")}</div>')  # fmt: skip
+            f'<div class="key">{of}</div>')  # fmt: skip
 
 
 def drift_words(name, motion):

@@ -10,7 +10,7 @@ import { colours } from "../colours.js";
 
 const LEAST = 8; // px: a shorter flick is none
 const PUSH = 0.4, KEY_PUSH = 0.25; // M (gR)^1/2: for a flick that is as long as R, and of a key
-const TURNS = 15; // rev/s for one as long as R
+const TURNS = 30; // rev/s for one as long as R
 const STILL = 0.02; // (g/R)^1/2: with less it is at rest
 const UPRIGHT = 1e-4; // below this sine of the tilt, 1' is where Python has it at a pole
 const KEYS = { w: [0, 1], a: [-1, 0], s: [0, -1], d: [1, 0] }; // to the right, and away
@@ -41,7 +41,7 @@ export class Flick {
     this.vector = new Vector3();
     this.arrow = new Arrow(colours.accent, { radius: 0.05, through: 0.85 });
     this.label = scene.labels.add("", "point");
-    this.label.shift = [0, -18];
+    this.label.shift = [0, -28];
     stage.scene.add(this.arrow);
     this.hide();
     const capture = { capture: true }; // before the camera hears of it
