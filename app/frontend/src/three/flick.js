@@ -37,11 +37,12 @@ export class Flick {
     this.hand = hand;
     this.ray = new Raycaster();
     this.from = /** @type {number[] | null} */ (null); // where a hand is on the top, px
-    this.point = new Vector3();
+    this.point = new Vector3(); // in space, and in the body
+    this.mark = new Vector3();
     this.vector = new Vector3();
-    this.arrow = new Arrow(colours.accent, { radius: 0.05, through: 0.85 });
+    this.arrow = new Arrow(colours.accent, { radius: 0.04, through: 0.85 });
     this.label = scene.labels.add("", "point");
-    this.label.shift = [0, -28];
+    this.label.shift = [0, -32];
     stage.scene.add(this.arrow);
     this.hide();
     const capture = { capture: true }; // before the camera hears of it
@@ -78,7 +79,7 @@ export class Flick {
     if (!point) return;
     this.stage.controls.enableRotate = false;
     this.from = [event.clientX, event.clientY];
-    this.point.copy(point);
+    this.mark.copy(this.scene.body.worldToLocal(this.point.copy(point).clone()));
     this.vector.set(0, 0, 0);
     this.hand.hold(true);
   }
@@ -103,11 +104,16 @@ export class Flick {
 
   /** @param {string} said */
   show(said) {
-    const { arrow, label, point, vector: { x, y, z }, stage } = this;
-    arrow.point(point, x, y, z, label.at);
+    const { arrow, label, stage } = this;
+    this.place();
     arrow.visible = label.visible = Boolean(arrow.drawable);
     if (label.element.textContent !== said) label.element.textContent = said;
     stage.invalidate();
+  }
+
+  place() {
+    const { arrow, label, point, vector: { x, y, z } } = this;
+    arrow.point(point, x, y, z, label.at);
   }
 
   letGo() {
@@ -160,6 +166,10 @@ export class Flick {
 
   // The arrow stays until the motion goes on.
   follow() {
-    if (!this.from && !this.player.held) this.hide();
+    if (this.from) {
+      this.scene.body.updateMatrixWorld();
+      this.scene.body.localToWorld(this.point.copy(this.mark));
+      this.place();
+    } else if (!this.player.held) this.hide();
   }
 }
