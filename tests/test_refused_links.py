@@ -73,7 +73,7 @@ def test_what_no_name_can_mean_is_said(row):
             assert not found and sentence
 
 
-OF_THE_LAB = {"body", "a", "I1", "I3", *BY, "spin", "tilt", "slip", "mu_k", "patch"}
+OF_THE_LAB = {"body", "a", "I1", "I3", *BY, "spin", "tilt", "slip", "mu_k", "patch", "push"}
 
 
 @pytest.mark.slow
@@ -88,7 +88,7 @@ def test_the_lab_has_a_scene(texts):
     if float(texts.get("patch", "1")) < 0:
         assert scene.messages
     assert said or scene.messages or scene.refused or scene.motions["rough"]
-    assert set(scene.messages) <= {*LIMITS}  # controls that show them
+    assert set(scene.messages) <= {*LIMITS, "pushes"}  # controls that show them, and the stage
 
 
 def test_a_top_that_no_body_has_is_shown():
