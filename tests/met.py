@@ -191,6 +191,8 @@ def opens(link):
             "open": {name: of_view(owners[name]) for name, of_view in OF_VIEWS.items() if name in owners},
             "motion": motion_of(start, float(texts_of(link).get("seconds", 5.0))),
         }  # fmt: skip
+        if start.pushes:  # each at s, mm along 1', 2', 3 from O, mN s
+            found["pushes"] = start.pushes
         return rounded(found)
 
 

@@ -28,7 +28,7 @@ VERSION_2 = {
     "mu": 0.5, "by": "share", "KJ": 7.0, "KR": 10.0, "e": 0.9, "E": 0.0, "th": 0.0, "thd": 0.0, "w2": 0.0, "w3": 0.0,
     "phi": 0.0, "psi": 0.0, "half": True, "limit": "lift-off", "face": "constants", "spin": 20.0, "tilt": 10.0,
     "slip": 1.0, "table": "ordinary", "mu_k": 0.3, "law": "smoothed", "gamma": 0.3, "eps": 0.1, "patch": 0.5,
-    "land": "plastic", "stem": True}  # fmt: skip
+    "land": "plastic", "stem": True, "push": ()}  # fmt: skip
 BODIES = [
     *(preset.shape for preset in PRESETS),
     Lathe(R=0.003, points=((0.002, 0.001), (0.02, 0.006), (0.02, 0.01), (0.0, 0.03)), density=(7e3, 1e3, 7e2, 1 / 3)),

@@ -27,6 +27,7 @@ TEXTS = {
     "slip": ("0", "-5", "1e5", *HUGE), "mu_k": ("0", "-1", ".5", "1", "50", *HUGE), "gamma": ("0", "-1"),
     "eps": ("0", "-1", "1e300"), "patch": ("0", "-1", "50", *HUGE),
     "land": ("stop",), "stem": ("no",),
+    "push": ("2_0_0_0_1_0_0", "2_0_0_900_0_0_1", "59_0_0_0_1_0_0", "2_0_0_0_1e5_0_0", ".1_0_0_5_0_0_3~5_0_0_5_.2_0_0"),
 }  # fmt: skip
 """{name in an address: values at and beyond its limits}."""
 BY = {"KJ": "share", "KR": "share", "e": "share", "E": "E", "th": "state", "thd": "state", "w2": "state", "w3": "state",
@@ -72,7 +73,7 @@ def test_what_no_name_can_mean_is_said(row):
             assert not found and sentence
 
 
-OF_THE_LAB = {"body", "a", "I1", "I3", *BY, "spin", "tilt", "slip", "mu_k", "patch"}
+OF_THE_LAB = {"body", "a", "I1", "I3", *BY, "spin", "tilt", "slip", "mu_k", "patch", "push"}
 
 
 @pytest.mark.slow
@@ -87,7 +88,7 @@ def test_the_lab_has_a_scene(texts):
     if float(texts.get("patch", "1")) < 0:
         assert scene.messages
     assert said or scene.messages or scene.refused or scene.motions["rough"]
-    assert set(scene.messages) <= {*LIMITS}  # controls that show them
+    assert set(scene.messages) <= {*LIMITS, "pushes"}  # controls that show them, and the stage
 
 
 def test_a_top_that_no_body_has_is_shown():

@@ -9,13 +9,14 @@ LEANS, AT_ONCE = 1.0, 0.05  # s: so long a lean is an event too; what is so near
 
 def happened(motion: TableMotion) -> tuple[tuple[float, str], ...]:
     """(t, code) of the events of a motion, in order: the beginnings of its phases, and those of its contacts."""
-    cuts = {*motion.cuts.values()}
+    pushes = [push.t for push, *_ in motion.pushes]
+    cuts = {*motion.cuts.values(), *pushes}
     goes = {} if motion.start.top.a > 0 else {"over": "goes"}  # without a heavy side below, nothing turns over
     found = [(phase.start, goes.get(phase.kind, phase.kind)) for phase in motion.phases if phase.kind in TOLD]
     found += [(phase.start, "leans") for phase in motion.phases
               if phase.kind == "leans" and phase.end - phase.start > LEANS and phase.start not in cuts]  # fmt: skip
     found += [(phase.start, "flies") for phase in motion.phases if phase.kind == "flies"][:1]
-    found += [(t, code) for code, t in motion.cuts.items()]
+    found += [(t, code) for code, t in motion.cuts.items()] + [(t, "push") for t in pushes]
     touch = motion.touches
     if touch is not None and all(abs(t - touch) > AT_ONCE for t, code in found if code == "stands-on-stem"):
         found.append((touch, "stem"))

@@ -41,8 +41,8 @@ class Explorer(Start):
     FOLLOWS = {name for names in Start.GIVEN.values() for name in names} - {"slip"}
 
     def __init__(self, **inputs: object) -> None:
-        super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
-        self._following = self._later = self._waits = False
+        super().__init__(**inputs)
+        self._later = self._waits = False
         others = ("slip", "given", "mu", "mu_s", "a", "I1", "I3", "shape", "upper", "limit")
         self.param.watch(self._on_inputs, [*self.FOLLOWS, *others])
         self._solve()

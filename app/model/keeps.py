@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from app.model.run import STEP, TableMotion
+from app.model.life import pushed_rows
+from app.model.run import TableMotion, every_other
 from tippe_core import Constants
 from tippe_core.types import Array
 
@@ -20,17 +21,19 @@ TREND = 0.2  # relative to the range of the values
 
 def keeps(motion: TableMotion) -> Array:
     """Rows (n, 13) over a motion: t (s), and for the energy (mm), Jellett's constant (divided by I1), Routh's and the
-    spin (rev/s) how far it is conserved from the given start, before any table grips it, until then, an index of KINDS,
-    and two numbers: the first and the present one, or the least and the largest so far if it swings."""
+    spin (rev/s) how far it is conserved from the given start, before any table grips it, or from the last push, until
+    then, an index of KINDS, and two numbers: the first and the present one, or the least and the largest so far if it
+    swings."""
     moved, scales, start = motion.trajectory, motion.start.scales, motion.start.state
     length, turns = 1e3 * scales.R, motion.start.turns
     energy, rest = length * (moved.ledger.kinetic + moved.com[:, 2]), length * (1 - abs(moved.top.a))
+    pushed = pushed_rows(moved)
     constants = Constants.from_state(moved.top, start.theta, start.theta_dot, start.omega2, start.omega3)
     # friction can only take energy, so whatever is gone is heat, however little
-    lost = _told(energy - rest, float(energy[0] - rest + length * motion.lost), 0.0, swings=False)
+    lost = _from_pushes(pushed, energy - rest, float(energy[0] - rest + length * motion.lost), 0.0, swings=False)
     lost[:, 1:] += rest
     found = [
-        _told(values, float(first))
+        _from_pushes(pushed, values, float(first))
         for values, first in (
             (moved.jellett / moved.top.I1, constants.K_J),
             (moved.routh, constants.K_R),
@@ -38,13 +41,13 @@ def keeps(motion: TableMotion) -> Array:
         )
     ]
     rows = np.column_stack([motion.seconds, lost, *found])
-    return rows[np.unique(np.append(np.arange(0, len(rows), STEP), len(rows) - 1))]
+    return rows[every_other(len(rows), pushed)]
 
 
 def while_it_turns(motion: TableMotion) -> tuple[float, float, float] | None:
     """Until when (s) only the ball of a top that slips and turns over carries it, and Jellett's constant at the start
-    and then, if it is nearly conserved so long; else None."""
-    until = motion.touches
+    and then, if it is nearly conserved so long and nothing pushes it; else None."""
+    until = None if motion.pushes else motion.touches
     if motion.table != "ordinary" or until is None or not any(phase.kind == "over" for phase in motion.phases):
         return None
     values = motion.trajectory.jellett / motion.trajectory.top.I1
@@ -66,6 +69,13 @@ def kinds(values: Array, nearly: float = NEARLY, *, swings: bool = True) -> NDAr
         found[:] = KINDS.index("swings")
     found[spread <= ROUNDING * most] = KINDS.index("kept")
     return found
+
+
+def _from_pushes(pushed: list[int], values: Array, first: float, *nearly: float, swings: bool = True) -> Array:
+    """_told() from the start, and anew from each of the rows just after a push."""
+    parts = np.split(values, pushed)
+    firsts = [first, *(float(part[0]) for part in parts[1:])]
+    return np.concatenate([_told(part, one, *nearly, swings=swings) for part, one in zip(parts, firsts, strict=True)])
 
 
 def _told(values: Array, first: float, nearly: float = NEARLY, *, swings: bool = True) -> Array:

@@ -8,10 +8,12 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from app.model.motion import sliding_of
+from app.model.motion import PUSHED
+from app.model.pushes import PushedSliding, with_pushes
 from app.model.runs import look
 from app.model.setup import SECONDS, Setup
 from tippe_core import TopError, Trajectory
+from tippe_core.types import Array
 
 LIFE = 60.0  # s, at most
 AFTER = 2.0  # s that are still shown of a motion that goes on for ever
@@ -53,7 +55,7 @@ class Life:
     """The motion of a Setup, as far as anybody has asked for it. Threads may share it."""
 
     def __init__(self, start: Setup) -> None:
-        self._sliding, self._time, self._lock = sliding_of(start, start.state), start.scales.time, Lock()
+        self._start, self._sliding, self._time, self._lock = start, PushedSliding(start), start.scales.time, Lock()
         self._step = float(start.times[1])
         self._most = within(replace(start, seconds=LIFE)).seconds
         self._rows = 0
@@ -61,16 +63,17 @@ class Life:
     def until(self, seconds: float) -> Lived:
         """The motion up to a time, from where it was when somebody asked before; what look() raises stops it there."""
         seconds = min(seconds, self._most)
-        count = round(seconds / self._time / self._step) + 1
+        times = with_pushes(self._step * np.arange(float(round(seconds / self._time / self._step) + 1)), self._start)
+        count = len(times)
         with self._lock:
             if self._rows < count and not self._sliding.ended:
-                self._go_on(count)
+                self._go_on(times[self._rows :])
             moved = self._sliding.trajectory[:count]
             if len(moved) < count and not self._sliding.ended:
                 return Lived(moved, float(moved.t[-1]) * self._time, CATCHES)
         return Lived(moved, seconds, LONG if seconds == self._most and len(moved) == count else "")
 
-    def _go_on(self, count: int) -> None:
+    def _go_on(self, times: Array) -> None:
         looks = iter(range(MOST_LOOKS))
 
         def progress(reached: float) -> None:
@@ -79,7 +82,7 @@ class Life:
                 raise _TooLong
 
         try:
-            self._sliding.until(self._step * np.arange(self._rows, count), progress)
+            self._sliding.until(times, progress)
         except _TooLong:
             pass
         finally:
@@ -116,13 +119,19 @@ def _end(moved: Trajectory, time: float, *, ended: bool) -> float:
     slips, last = np.flatnonzero(moved.regime != "roll"), len(moved.t) - 1
     if len(slips) and slips[-1] == last and not ended:
         return np.inf
-    since = last if ended else slips[-1] + 1 if len(slips) else 0
+    since = last if ended else max([slips[-1] + 1 if len(slips) else 0, *pushed_rows(moved)])
     return max(SECONDS, float(np.ceil(10 * (time * moved.t[since] + AFTER)) / 10))
+
+
+def pushed_rows(moved: Trajectory) -> list[int]:
+    """The rows just after each push."""
+    found = np.searchsorted(moved.t, [t for t, event in moved.events if event == PUSHED])
+    return [int(i) for i in found if i < len(moved)]
 
 
 def thinned(moved: Trajectory, time: float, until: float = np.inf) -> Trajectory:
     """A Trajectory up to the time `until` (s), with as few of its rows as are needed: at the intervals NEAR and FAR,
-    and wherever the regime changes.
+    and wherever the regime changes or it is pushed.
 
     time: s in one unit of its time.
     """
@@ -133,6 +142,8 @@ def thinned(moved: Trajectory, time: float, until: float = np.inf) -> Trajectory
     changes = moved.regime[1:] != moved.regime[:-1]
     kept = np.ones(len(moved.t), dtype=bool)
     kept[1:-1] = (np.diff(np.floor(rows[:-1]), prepend=0.0) > 0) | changes[:-1] | changes[1:]
+    for i in pushed_rows(moved):
+        kept[i - 1 : i + 1] = True
     seen = time * moved.t <= until * (1 + 1e-9)
     kept[np.flatnonzero(seen)[-1]] = True
     return moved[kept & seen]

@@ -17,6 +17,7 @@ from tippe_core.types import Array, Bools, Indices, Number
 
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 THROWN = "stem throws it up"
+PUSHED = "pushed"  # the event of a push
 NEAR_TOUCH = 0.02  # rad: a lift-off this near to the touch angle counts as caused by the touch
 RTOL = 1e-9  # of Sliding
 
@@ -30,7 +31,8 @@ class Motion:
     t (n,) extends to the requested end: if the trajectory ends earlier, its last row is repeated there. frames: the
     arguments of top3d.pack_frames. stretches: (start, end, one of regimes.py), in order. drift: for each of KEPT, the
     largest difference between two instants relative to the largest value; alone: the time up to which only the sphere
-    touches, what ends that ("" if nothing), and the drift of J up to then, which only a single contact conserves.
+    touches, what ends that ("" if nothing), and the drift of J up to then, which only a single contact conserves; both
+    since the last push.
     Events have tippe_core's names, except THROWN if the stem's first touch lifts the top off. ending: on the sliding
     plane, how the motion ends.
     """
@@ -82,9 +84,9 @@ class Motion:
         return bool(np.all(self._from_right_angle[0][:1] < 0))
 
 
-def sliding_of(start: Setup, state: State) -> Sliding:
+def sliding_of(start: Setup, state: State, begins: float = 0.0) -> Sliding:
     """The motion of a Setup on the ordinary table, from a State."""
-    return Sliding(start.top, state, start.friction, rtol=RTOL, landing=start.landing, edge=start.edge,
+    return Sliding(start.top, state, start.friction, begins, rtol=RTOL, landing=start.landing, edge=start.edge,
                    profile=body(start.shape) if start.edge else None)  # fmt: skip
 
 
@@ -156,7 +158,9 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
     t, code = frames[0], frames[-1]
     starts = np.flatnonzero(np.diff(code, prepend=-1))
     stretches = zip(t[starts], np.append(t[starts[1:]], t[-1]), code[starts], strict=True)
-    first = next((event for event in trajectory.events if event[1] not in ("sticks", "slips")), (t[-1], ""))
+    since = max((at for at, event in trajectory.events if event == PUSHED), default=0.0)
+    later, last_part = [event for event in trajectory.events if event[0] > since], trajectory.t >= since
+    first = next((event for event in later if event[1] not in ("sticks", "slips")), (t[-1], ""))
     until, event = first
     if event == "lifts off" and plane == "ordinary" and settings.edge and touches(trajectory, until, settings):
         event = THROWN
@@ -168,8 +172,8 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
         t=t,
         frames=tuple(frames),
         stretches=tuple((float(start), float(end), int(which)) for start, end, which in stretches),
-        drift=MappingProxyType({name: _drift(getattr(trajectory, field)) for name, field in KEPT.items()}),
-        alone=(until, event, _drift(trajectory.jellett[trajectory.t <= until])),
+        drift=MappingProxyType({name: _drift(getattr(trajectory, field)[last_part]) for name, field in KEPT.items()}),
+        alone=(until, event, _drift(trajectory.jellett[last_part & (trajectory.t <= until)])),
     )
 
 

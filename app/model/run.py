@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
-from app.model.life import Lived, life_of, lived, thinned, within
+from app.model.life import Lived, life_of, lived, pushed_rows, thinned, within
 from app.model.motion import Motion, check_room, clear, for_reader, motion_of
 from app.model.phases import Phase, carried, phases, samples
-from app.model.setup import SECONDS, Setup, start_of
+from app.model.pushes import in_pieces
+from app.model.setup import SECONDS, Push, Setup, start_of
 from app.text import say, told
-from tippe_core import TopError, glide, grip, roll
-from tippe_core.types import Array
+from tippe_core import State, Top, TopError, Trajectory, Viscous, glide, grip, roll, slide
+from tippe_core.types import Array, Indices
 
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
 STEM = "stem", "both"
@@ -105,11 +106,20 @@ class TableMotion(Motion):
         return MappingProxyType(found)
 
     @cached_property
+    def pushes(self) -> tuple[tuple[Push, int, float], ...]:
+        """Those of its start that came about, each with the row just after it, and the energy (MgR) that it gave."""
+        moved, rows = self.trajectory, pushed_rows(self.trajectory)
+        whole = (moved.energy + moved.heat).tolist()
+        return tuple((push, i, whole[i] - whole[i - 1]) for push, i in zip(self.start.pushes, rows, strict=False))
+
+    @cached_property
     def phases(self) -> tuple[Phase, ...]:
         """Its phases."""
+        pushes = [push.t for push, *_ in self.pushes]
+        still, cuts = max([0.0, *pushes]), (*self.cuts.values(), *pushes)
         rolls = float(np.nan_to_num(self.rolls_since, nan=np.inf))
-        return phases(samples(self.trajectory, self.start.scales.time, self.start.turns, tuple(self.cuts.values()),
-                              0.0 if self.table == "ice" else rolls))  # fmt: skip
+        return phases(samples(self.trajectory, self.start.scales.time, self.start.turns, cuts,
+                              still if self.table == "ice" else max(rolls, still)))  # fmt: skip
 
 
 @lru_cache(12)
@@ -160,15 +170,48 @@ def computed(start: Setup, table: str) -> tuple[Lived, float]:
         return life_of(start).until(start.seconds), lost
     try:
         if table == "ice":
-            moved = clear(partial(glide, start.top, state, start.times), start, state)
+            moved = in_pieces(start, state, partial(_glided, start), lambda state: state)
         else:
             state, lost = grip(start.top, state)
-            moved = clear(partial(roll, start.top, None, start.times, state), start, state)
+            moved = in_pieces(start, state, partial(_rolled, start), partial(_gripped, start.top))
     except TopError:
         raise
     except (ValueError, ArithmeticError):  # of the solvers without friction, whose squares or reciprocals overflow
         raise TopError("state", repr(state), "one of moderate numbers", code=EXTREME) from None
     return Lived(moved, start.seconds, ""), lost
+
+
+def check_pushes(start: Setup, motions: list[TableMotion], why: TopError | None) -> None:
+    """Raises TopError if the last push came about in none of these motions; why: the reason if there is no motion."""
+    if start.pushes and why and not motions:
+        raise why
+    if start.pushes and all(len(motion.pushes) < len(start.pushes) for motion in motions):
+        last = max(motion.seconds[-1] if motion.ended_at is None else motion.ended_at for motion in motions)
+        raise TopError("push", start.pushes[-1].t, "{first:.10g} to {last:.10g}", code="outside-times", first=0.0,
+                       last=float(last))  # fmt: skip
+
+
+def _glided(start: Setup, state: State, times: Array) -> Trajectory:
+    flies = state.z is not None
+    motion = partial(slide, start.top, state, Viscous(0.0), times) if flies else partial(glide, start.top, state, times)
+    return clear(motion, start, state)
+
+
+def _rolled(start: Setup, state: State, times: Array) -> Trajectory:
+    return clear(partial(roll, start.top, None, times, state), start, state)
+
+
+def _gripped(top: Top, state: State) -> State:
+    """The rolling State after a push. The rough table pulls too: where the push would lift the top off, at the ball
+
+        J_z = -u_z/(1 + (a s)^2/I1) ,   I1 dw1 = -a s J_z ,
+
+    with the velocity u_z = v_z - a s w1 of the point that touches, keeps it there, before it grips."""
+    if state.z is not None and state.vz is not None:
+        arm = top.a * np.sin(state.theta)
+        J = (arm * state.theta_dot - state.vz) / (1 + arm**2 / top.I1)
+        state = replace(state, theta_dot=state.theta_dot - arm * J / top.I1, z=None, vz=None)
+    return grip(top, state)[0]
 
 
 def why_not(error: TopError) -> str:
@@ -199,5 +242,9 @@ def _curves(motion: Motion, start: Setup, lost: float) -> Array:
     if len(motion.t) > len(moved.t):  # it ended early; the last row is repeated at the end
         rows = np.concatenate([rows, rows[-1:]])
         rows[-1, 0], rows[-1, -1] = motion.t[-1] * scales.time, motion.frames[-1][-1]
-    kept = np.arange(0, len(rows), STEP)
-    return rows[kept if kept[-1] == len(rows) - 1 else np.append(kept, len(rows) - 1)].astype(np.float32)
+    return rows[every_other(len(rows), pushed_rows(moved))].astype(np.float32)
+
+
+def every_other(count: int, pushed: list[int]) -> Indices:
+    """One row for each STEP of so many, the last one, and those before and after each push."""
+    return np.unique([*range(0, count, STEP), count - 1, *(i - before for i in pushed for before in (0, 1))])

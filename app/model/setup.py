@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -39,8 +39,25 @@ SECONDS, MOST_SECONDS = 6.0, 60.0
 MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.5, 16_000, 1.0
 LEAST_FRAMES = 600
 
+FARTHEST = 2.0  # R: about how far from G a push acts
+ON = 4.0  # s: so long a run goes on at least after its last push
+
 Toy: TypeAlias = str | Shape | Top
 """The name of one of TOYS, or a body of the visitor's own; or a Top that no known body has."""
+
+
+class Push(NamedTuple):
+    """A push of a top that moves: at t (s) an impulse (mN s, along x, y, z, which turn with phi) at a point of the body
+    (mm from O along 1', 2', 3)."""
+
+    t: float
+    point: tuple[float, float, float]
+    impulse: tuple[float, float, float]
+
+    @property
+    def size(self) -> float:
+        """In mN s."""
+        return float(np.linalg.norm(self.impulse))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -49,7 +66,7 @@ class Setup:
 
     shape: None if a, I1 and I3 are not those of the body. Let go by a hand with spin (rev/s), tilt (degrees) and slip
     as in by_hand(), or as the State `rolling`. law: one of OF_LAW, with its numbers: mu, mu_s, gamma and eps in R, M
-    and g, patch in mm. seconds: how long a run is.
+    and g, patch in mm. seconds: how long a run is. pushes: in the order of their times.
     """
 
     top: Top
@@ -68,12 +85,13 @@ class Setup:
     landing: str = "plastic"
     stem: bool = True
     seconds: float = SECONDS
+    pushes: tuple[Push, ...] = ()
 
     @cached_property
     def _key(self) -> tuple[object, ...]:
         let_go = (self.spin, self.tilt, self.slip) if self.rolling is None else self.rolling
         numbers = tuple(getattr(self, name) for name in OF_LAW[self.law])
-        run = self.landing, self.stem, self.seconds
+        run = self.landing, self.stem, self.seconds, self.pushes
         return self.top, self.scales, self.shape, let_go, self.law, numbers, *run
 
     def __eq__(self, other: object) -> bool:
@@ -96,6 +114,11 @@ class Setup:
     def profile(self) -> Array:
         """The outline of the body, or of a stand-in for it."""
         return outline(self.top) if self.shape is None else body(self.shape)
+
+    @property
+    def impulse(self) -> float:
+        """The impulse M (gR)^1/2, in mN s."""
+        return 1e3 * self.scales.M * self.scales.velocity
 
     @property
     def turns(self) -> float:
@@ -157,6 +180,7 @@ class Setup:
         kinetic = top.I1 * (start.theta_dot**2 + start.omega2**2) + top.I3 * start.omega3**2
         vx, vy = start.vx or 0.0, start.vy or 0.0
         fastest = np.sqrt((kinetic + vx**2 + vy**2 + 4 * abs(top.a)) / min(top.I1, top.I3))
+        fastest += FARTHEST * sum(push.size for push in self.pushes) / self.impulse / min(top.I1, top.I3)
         if end * fastest > FARTHEST_TURN * MOST_FRAMES:
             most = FARTHEST_TURN * MOST_FRAMES / fastest * self.scales.time
             raise TopError("seconds", self.seconds, "at most {most:.3g} s with this spin",

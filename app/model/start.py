@@ -13,7 +13,7 @@ import param
 
 from app.model import arrival
 from app.model.bodies import fits
-from app.model.setup import LAWS, OF_LAW, PATCH, TOYS, Setup, Toy, by_hand, toy_of
+from app.model.setup import LAWS, MOST_SECONDS, OF_LAW, ON, PATCH, SECONDS, TOYS, Push, Setup, Toy, by_hand, toy_of
 from app.model.setup import TABLES as EACH
 from tippe_core import Shape, State, Top, TopError, TruncatedSphere
 from tippe_core.paper.equations import rolling_velocity
@@ -68,6 +68,9 @@ class Start(param.Parameterized):
         default="plastic", objects=["stop", "plastic"], doc="what happens after it lifts off"
     )
     stem = param.Boolean(True, doc="whether the stem can touch the table")
+    pushes: param.Parameter[tuple[Push, ...]] = param.Parameter(
+        default=(), doc="what pushes it on its way, in the order of their times; a start that is changed has none"
+    )
 
     GIVEN = MappingProxyType(
         {
@@ -78,10 +81,23 @@ class Start(param.Parameterized):
         }
     )
 
+    _following = False  # whether inputs are being set that follow from others
+
+    def __init__(self, **inputs: Any) -> None:
+        super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
+        of_motion = {name for names in self.GIVEN.values() for name in names} | {"given", "shape", "a", "I1", "I3"}
+        self.param.watch(self._anew, [*of_motion, "law", *NUMBERS, "landing", "stem", "pushes"])
+
+    def _anew(self, *events: param.parameterized.Event) -> None:
+        """A push belongs to one motion: it is forgotten when that is changed, unless the change itself sets it."""
+        if self.pushes and not self._following and all(event.name != "pushes" for event in events):
+            self.pushes = ()
+
     @property
     def set(self) -> dict[str, Any]:
         """{input: value} of the top, of the way its motion is given, and of the table: enough to restore it."""
-        names = ("shape", "a", "I1", "I3", "given", *self.GIVEN[self.given], "table", "law", *OF_LAW[self.law])
+        body, law = ("shape", "a", "I1", "I3"), ("law", *OF_LAW[self.law])
+        names = (*body, "given", *self.GIVEN[self.given], "table", *law, "pushes")
         return {name: getattr(self, name) for name in names}
 
     def later(self, **inputs: Any) -> None:
@@ -108,7 +124,8 @@ class Start(param.Parameterized):
         names = ("spin", "tilt", "slip", "law", "mu", "gamma", "eps", "patch", "landing", "stem")
         return Setup(
             top=top, scales=shape.scales, shape=shape if fits(shape, top) else None, mu_s=self.static,
-            rolling=None if self.given == "hand" else self.let_go,
+            rolling=None if self.given == "hand" else self.let_go, pushes=self.pushes,
+            seconds=min(max([SECONDS, *(push.t + ON for push in self.pushes[-1:])]), MOST_SECONDS),
             **{name: getattr(self, name) for name in names},
         )  # fmt: skip
 

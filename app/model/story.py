@@ -4,16 +4,18 @@ Words are in text/<language>/lab.toml, under the kinds of phases and their varia
 chosen only where the run, or the stability of this top, shows that it is the cause.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from app.model.events import first_times, happened
+from app.model.events import happened
 from app.model.phases import SIDE, SPINS, Phase
+from app.model.pushes import size_words
 from app.model.regimes import WOULD_LIFT
 from app.model.run import TableMotion
+from app.model.setup import Push
 from app.text import listed, say
 from tippe_core import thresholds
 from tippe_core.types import Array, Number
@@ -21,7 +23,8 @@ from tippe_core.types import Array, Number
 STANDS = ("stands-on-stem", "stands-upright", "stands-inverted")
 TENTH = (0.05, 0.15)  # degrees
 SAME, STEADY = 0.05, 0.5  # the share that is not called a change; degrees within which a tilt is called steady
-SMALL, NEAR = 0.005, 10.0  # the share of its energy that is not worth a word; degrees
+SAID = 0.5  # mm: less energy is not worth a word
+LINGERS = 1.0  # s: so long after a push what it does may be its work
 AROUND = np.pi / 2  # rad: what goes round turns by more
 BALANCE = 1e-4  # degrees: what stays within it has not left its balance
 BACK = 3  # turns of the tilt: it has come back twice
@@ -47,8 +50,9 @@ class Stage(NamedTuple):
 
 @dataclass(frozen=True)
 class Story:
-    """What a motion did: a Stage for each of its phases. caption: a few words below it when it is shown beside others;
-    "" on the ordinary table, where that is the stage's short word."""
+    """What a motion did: a Stage for each of its phases, and one from each push in it on. caption: a few words below it
+    when it is shown beside others; "" on the ordinary table, where that is the stage's short word.
+    """
 
     events: tuple[Event, ...]
     stages: tuple[Stage, ...]
@@ -86,7 +90,26 @@ class _Told:
         self.turns = motion.start.turns
 
     def stages(self) -> tuple[Stage, ...]:
-        return tuple(self._stage(i, phase) for i, phase in enumerate(self.phases))
+        return tuple(stage for i, phase in enumerate(self.phases) for stage in self._from_pushes(i, phase))
+
+    def _from_pushes(self, i: int, phase: Phase) -> Iterator[Stage]:
+        """The Stage of a phase, and the same with a word on each push from it on."""
+        stage = first = self._stage(i, phase)
+        for push, _, gain in self._pushes(phase):
+            height = 1e3 * self.motion.start.scales.R * gain
+            said = say("lab.pushed.told", time=push.t, size=size_words(push))
+            if abs(height) >= SAID:
+                said += " " + say(f"lab.pushed.{'gave' if height > 0 else 'took'}", energy=abs(height))
+            if push.t > phase.start:
+                yield stage
+                stage = stage._replace(t=push.t)
+            stage = stage._replace(why=f"{said} {first.why}".strip())
+        yield stage
+
+    def _pushes(self, phase: Phase) -> list[tuple[Push, int, float]]:
+        """Those in a phase or shortly before it."""
+        end = phase.end + (phase is self.phases[-1])
+        return [each for each in self.motion.pushes if phase.start - LINGERS < each[0].t < end]
 
     def _stage(self, i: int, phase: Phase) -> Stage:
         numbers, code = self._numbers(i, phase), self._code(i, phase)
@@ -138,9 +161,9 @@ class _Told:
         return bool(self.motion.tilt.max() < SIDE)
 
     def _rubs(self, phase: Phase) -> bool:
-        """Whether it slips in a phase, on a table with friction."""
-        here = self._here(phase)
-        return not self.quiet and bool((self.motion.trajectory.regime[here] != "roll").mean() > 0.5)
+        """Whether it slips in a phase, on a table with friction, and nothing pushes it."""
+        free = not self.quiet and not self._pushes(phase)
+        return free and bool((self.motion.trajectory.regime[self._here(phase)] != "roll").mean() > 0.5)
 
     def _goes_round(self, phase: Phase) -> bool:
         return bool(np.ptp(self.motion.trajectory.phi[self._here(phase)]) > AROUND)
@@ -150,7 +173,7 @@ class _Told:
     def _whys(self, i: int, phase: Phase, code: str, numbers: dict[str, Number]) -> list[str]:
         """The sentences about a phase itself."""
         said = []
-        if self.quiet and i == 0:
+        if self.quiet and i == 0 and not (self.table == "ice" and self.motion.pushes):
             said.append(say(f"lab.{self.table}.why"))
         if code == "grips":
             steady = f"{numbers['least']:.1f}" == f"{numbers['most']:.1f}"
@@ -170,13 +193,15 @@ class _Told:
         elif code == "back":
             said.append(say(f"lab.stages.back.{'why' if self.motion.start.edge else 'ball'}", **numbers))
         elif code == "leans" and not self.quiet:
-            said += [self._within(numbers), say("lab.stages.leans.energy", **numbers)]
+            said.append(self._within(numbers))
+            if not self.motion.pushes:
+                said.append(say("lab.stages.leans.energy", **numbers))
         elif code in ("leans", "rests", "upright"):
             said.append(self._within(numbers))
         else:
             said.append(say(f"lab.stages.{code}.why", **numbers))
         slower = numbers["last"] < (1 - SAME) * numbers["spin"] and round(numbers["last"]) < round(numbers["spin"])
-        if code in ("swings", "nods") and slower and not self.quiet:
+        if code in ("swings", "nods") and slower and not self.quiet and not self._pushes(phase):
             said.append(say("lab.stages.swings.spin", **numbers))
         return [*said, *self._of_table(i, numbers)]
 
@@ -195,7 +220,8 @@ class _Told:
 
     def _why_upright(self, i: int, numbers: dict[str, Number]) -> str:
         """What holds it: its low weight, or its spin; or that nothing does for ever."""
-        said = [say("lab.stages.upright.rubbed")] if "rises" in self.kinds[:i] and self.a < 0 else []
+        rose = "rises" in self.kinds[:i] and not self.motion.pushes
+        said = [say("lab.stages.upright.rubbed")] if rose and self.a < 0 else []
         change = thresholds(self.motion.start.top).upright
         spin, needed = numbers["spin"], float(np.nan_to_num(change.spin)) * self.turns
         stable = change.stable == "always" or (change.stable == "above") == (spin > needed)
@@ -211,6 +237,8 @@ class _Told:
 
     def _why_it_falls(self, i: int, phase: Phase, numbers: dict[str, Number]) -> str:
         """Too little spin is the reason where it stood with more, or where it needs more to stand."""
+        if self._pushes(phase):
+            return say("lab.stages.falls.why", **numbers)
         stood = self.phases[i - 1] if i and self.kinds[i - 1] in STANDS else None
         if stood and numbers["spin"] < (1 - SAME) * abs(self._at(stood.start)[5]) and numbers["spin"] >= SPINS:
             return say("lab.stages.falls.few", **numbers)
@@ -228,7 +256,7 @@ class _Told:
         if i or motion.table != "rough":
             return []
         said = []
-        if motion.curves[0, 4] > TENTH[0]:
+        if motion.curves[0, 4] > TENTH[0] and not motion.pushes:
             said.append(say("lab.rough.gripped", start=numbers["start"], lost=float(motion.curves[0, 4])))
         if any(which == WOULD_LIFT for *_, which in motion.stretches):
             said.append(say("lab.rough.lifts"))
@@ -241,7 +269,8 @@ class _Told:
             then = self.phases[i + 1]
             code = self._next(then)
             lost = abs(self._at(then.start)[5]) < (1 - SAME) * abs(self._at(phase.start)[5])
-            if code == "falls" and self._stands(phase) == "spins" and phase.kind in STANDS and lost and not self.quiet:
+            stood = self._stands(phase) == "spins" and phase.kind in STANDS and not self._pushes(then)
+            if code == "falls" and stood and lost and not self.quiet:
                 code = "tires"
             return [say(f"lab.next.{code}", **numbers | {"time": then.start})]
         if motion.ended_at is not None:
@@ -306,24 +335,6 @@ class _Told:
             "happens": _happens(motion) if motion.ended else "",
             "part": _part(motion),
         }  # fmt: skip
-
-
-def of_all(motions: Mapping[str, TableMotion]) -> tuple[str, str]:
-    """The headline and the explanation of one start on several tables, {table: its motion}."""
-    quiet = {name: motion for name, motion in motions.items() if name != "ordinary"}
-    over = "ordinary" in motions and "over" in first_times(motions["ordinary"])
-    turned = over and len(quiet) == 2 and all(motion.tilt.max() < SIDE for motion in quiet.values())
-    said = [say("lab.three.why")]
-    if "rough" in quiet:
-        first = quiet["rough"].curves[0]
-        lost, start = float(first[4]), float(first[3] + first[4])
-        said.append(say(f"lab.three.{'grip' if lost > SMALL * start else 'keep'}", lost=lost, start=start))
-    if len(quiet) == 2:
-        ends: dict[str, Number] = {f"{name}_{end}": float(getattr(motion.tilt, of)()) for name, motion in quiet.items()
-                for end, of in (("low", "min"), ("high", "max"))}  # fmt: skip
-        near = all(np.ptp(motion.tilt) < NEAR for motion in quiet.values())
-        said.append(say(f"lab.three.{'near' if near else 'far'}", **ends))
-    return say(f"lab.three.{'turned' if turned else 'headline'}"), " ".join(said)
 
 
 def _caption(motion: TableMotion) -> str:

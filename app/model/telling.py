@@ -49,7 +49,9 @@ def _table(motion: TableMotion) -> dict[str, Any]:
         "supports": [(t * start.scales.time, on) for t, on in moved.supports],
         "phases": [
             {"kind": phase.kind, "from": phase.start, "to": phase.end, "headline": stage.headline, "why": stage.why}
-            for phase, stage in zip(motion.phases, found.stages, strict=True)
+            for phase in motion.phases
+            for stage in found.stages
+            if stage.t == phase.start
         ],
         "events": [(event.t, event.word) for event in found.events],
         "kept": _kept(motion),

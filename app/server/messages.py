@@ -12,6 +12,7 @@ from typing import Any
 from bokeh.model import DataModel
 
 from app.model.build.builder import LARGEST_FILE
+from app.state.codecs import Pushes
 
 MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
 KINDS = {"PATCH-DOC", "PULL-DOC-REQ"}  # a browser never pushes a document
@@ -162,7 +163,8 @@ CHANGES = {
     "Guide": {},
     "LessonView": {"asked": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
     "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
-    "LabView": PICTURE | {"asked": row(COUNT, SHORT, NUMBER | SHORT | FLAG)},
+    "LabView": PICTURE | {"asked": row(COUNT, SHORT, NUMBER | SHORT | FLAG)
+                          | row(COUNT, one_of("pushes"), text(Pushes.LONGEST))},
     "Look": {"dark": FLAG, "large": FLAG},
     "NumberControls": {"asked": row(COUNT, SHORT, NUMBER | SHORT, FLAG)},
     "Painted": {"painted": COUNT},

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
+from app.model.life import pushed_rows
 from app.model.phases import carried
+from app.model.pushes import push_words, state_of
 from app.model.regimes import OF_CORE
 from app.model.setup import Setup
 from app.share import export, glb, prints
@@ -52,7 +54,9 @@ class Shown:
         """{name: (value, unit)} of its parameters, every number to the last digit."""
         top, scales = self.setup.top, self.setup.scales
         law = (repr(self.setup.friction), OF_ONE) if self.table == ORDINARY else (self.table, "")
-        return {
+        pushes = {f"push {i}": (f"{push.size:.6g} mN s at {push.t:.6g} s", "")
+                  for i, push in enumerate(self.setup.pushes, 1)}  # fmt: skip
+        return pushes | {
             "table": (self.table, ""), "friction": law, "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
             "I3": (top.I3, "MR^2"), "start": (repr(self.setup.state), OF_ONE), "R": (scales.R, "m"),
             "M": (scales.M, "kg"), "g": (scales.g, "m/s^2"),
@@ -141,7 +145,8 @@ def caption(shown):
     return (
         f"$a$ = {top.a:.6g} $R$,  $I_1$ = {top.I1:.6g} $MR^2$,  $I_3$ = {top.I3:.6g} $MR^2$;  "
         f"$R$ = {1e3 * scales.R:.4g} mm,  $M$ = {1e3 * scales.M:.4g} g",
-        rf"{_law(shown)};  $\theta$ = {np.degrees(state.theta):.5g}°, {say('share.spin', spin=spin)}",
+        rf"{_law(shown)};  $\theta$ = {np.degrees(state.theta):.5g}°, {say('share.spin', spin=spin)}"
+        + f", {push_words(shown.setup.pushes)}" * bool(shown.setup.pushes),
     )
 
 
@@ -161,27 +166,29 @@ def _law(shown):
 
 
 def run_python(shown):
-    """Python whose `motion` is the trajectory."""
-    setup, names = shown.setup, "theta theta_dot omega2 omega3 phi psi vx vy".split()
-    given = {name: getattr(setup.state, name) for name in names}
+    """Python whose `motion` is the trajectory; that from its last push on if it is pushed."""
+    setup, names = shown.setup, "theta theta_dot omega2 omega3 phi psi x y vx vy z vz".split()
+    pushed, times = pushed_rows(shown.trajectory)[-1:], setup.times
+    begins = state_of(shown.trajectory, pushed[0]) if pushed else setup.state
+    given = {name: getattr(begins, name) for name in names}
     state = ", ".join(f"{name}={float(value)!r}" for name, value in given.items() if value is not None)
-    times = setup.times
+    first = float(shown.trajectory.t[pushed[0]]) if pushed else 0
     edge = None if setup.edge is None else tuple(float(x) for x in setup.edge)
     moves = {
         ROUGH: "roll(top, None, t, grip(top, state)[0])",
-        ICE: "glide(top, state, t)",
+        ICE: "glide(top, state, t)" if begins.z is None else "slide(top, state, Viscous(0.0), t)",
         ORDINARY: f"slide(top, state, {setup.friction!r}, t, landing={setup.landing!r}, edge={edge!r})",
     }[shown.table]
     law = f"{type(setup.friction).__name__}, " * (shown.table == ORDINARY)
-    uses = {ROUGH: "grip, roll", ICE: "glide", ORDINARY: "slide"}[shown.table]
+    uses = {ROUGH: "grip, roll", ICE: "glide" if begins.z is None else "Viscous, slide", ORDINARY: "slide"}[shown.table]
     return f"""\
 import matplotlib.pyplot as plt
 import numpy as np
 from tippe_core import {law}State, Top, {uses}
 
 top = {setup.top!r}
-state = State({state})
-t = np.linspace(0, {float(times[-1])!r}, {len(times)})
+state = State({state}){"  # just after its last push" * bool(pushed)}
+t = np.linspace({first!r}, {float(times[-1])!r}, {len(times)})
 motion = {moves}
 plt.plot(motion.t * {float(setup.scales.time)!r}, np.degrees(motion.theta))
 plt.savefig("run.png")

@@ -7,8 +7,10 @@ import base64
 import binascii
 import re
 import zlib
+from itertools import pairwise
 
 from app.model.measured import film
+from app.model.setup import MOST_SECONDS, Push
 from app.model.votes.classroom import KEY
 from app.state import asked
 from app.text import say
@@ -132,6 +134,29 @@ class Body:
         except (binascii.Error, zlib.error, ValueError):
             raise ValueError(say("share.link.file")) from None
         return load_top(document)
+
+
+class Pushes:
+    """Pushes, in the order of their times: of each seven numbers, its time, point and impulse."""
+
+    MOST, FARTHEST, STRONGEST = 12, 1e4, 1e6  # mm, mN s
+    LONGEST = MOST * 7 * (LONGEST_NUMBER + 1)
+
+    @staticmethod
+    def text(value):
+        """The text of a tuple of Push."""
+        return "~".join(Numbers.text([push.t, *push.point, *push.impulse]) for push in value)
+
+    @classmethod
+    def value(cls, text):
+        """The tuple of Push in a text; else raises ValueError."""
+        rows = [Numbers(7).value(part) for part in text.split("~")] if text else []
+        times = [0.0, *(row[0] for row in rows if row), MOST_SECONDS]
+        if not all(rows) or len(rows) > cls.MOST or any(a >= b for a, b in pairwise(times)) or any(
+            max(map(abs, row[1:4])) > cls.FARTHEST or max(map(abs, row[4:])) > cls.STRONGEST for row in rows
+        ):  # fmt: skip
+            raise ValueError(say("share.link.pushes", most=cls.MOST, seconds=MOST_SECONDS))
+        return tuple(Push(t, (x, y, z), (a, b, c)) for t, x, y, z, a, b, c in rows)
 
 
 class Key:

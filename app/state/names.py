@@ -15,7 +15,7 @@ from app.model.maps.maps import COLOURS_BY
 from app.model.region import PAPER
 from app.model.setup import LAWS
 from app.model.start import TABLES
-from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf, Same
+from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf, Pushes, Same
 from app.state.map_text import MapText
 from app.text import LANGUAGES
 
@@ -85,6 +85,7 @@ ROWS = (
     Name("patch", "Explorer", "patch", Number),
     Name("land", "Explorer", "landing", _words("stop", "plastic")),
     Name("stem", "Explorer", "stem", _SWITCH),
+    Name("push", "Explorer", "pushes", Pushes),
     Name("half", "Explorer", "upper", OneOf(yes=True, no=False, paper=PAPER)),
     Name("limit", "Explorer", "limit", OneOf(lift="lift-off", slip="slip")),
     # playback and view

@@ -34,6 +34,15 @@ interface Rendering<M extends Model> {
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
 
+// What a flick on the top does, and how its size is said; in units of M, R and g, and rev/s.
+interface Hand {
+  hold(held: boolean): void;
+  push(point: number[], impulse: number[]): void;
+  spin(turns: number): void;
+  saidSize(size: number): string;
+  saidTurns(turns: number): string;
+}
+
 // An earlier run, shown beside the present one.
 type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
 
@@ -41,6 +50,7 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   before?: Before | null;
   degrees?: boolean; // the text of the handle
   letGo?(): void; // called when the axis is released
+  flick?: Hand;
   frames: Bytes;
   profile: Bytes;
   mu_s: number;

@@ -6,9 +6,10 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from app.model.inputs import INPUTS
+from app.model.run import why_not
 from app.model.setup import LAWS, TABLES, TOYS
 from app.text import say
-from tippe_core import Shape, Top
+from tippe_core import Shape, Top, TopError
 
 LIMITS = MappingProxyType({name: (INPUTS[name].least, INPUTS[name].most)
                            for name in ("spin", "tilt", "slip", "mu", "mu_s", "gamma", "eps", "patch")})  # fmt: skip
@@ -27,7 +28,7 @@ SHOWN = 30  # characters of an input that is not a number, as quoted in a senten
 
 def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
     """Why an input cannot have this value, in a sentence; "" if it can."""
-    if name == "toy" and isinstance(value, Shape | Top):
+    if name == "pushes" or (name == "toy" and isinstance(value, Shape | Top)):
         return ""
     if name in CHOICES:
         return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
@@ -41,6 +42,15 @@ def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
     key = name if name in ("spin", "tilt", "mu", "patch") else "range"
     said = say(f"lab.inputs.{key}", value=number, least=least, most=most)
     return f"{said} {say('lab.inputs.same', value=number, same=_folded(number))}" if name == "tilt" else said
+
+
+def refusal(error: TopError) -> str:
+    """Why a start, or a push, is impossible."""
+    if error.code in ("stem-below-table", "body-below-table"):
+        return say(f"lab.refused.{error.code}", tilt=error.value, most=error.numbers["most"])
+    if error.name == "push":
+        return say(f"lab.pushed.{error.code}", value=error.value, **error.numbers)
+    return say("lab.pushed.below") if error.name == "at" else why_not(error)
 
 
 def nearest(name: str, value: object) -> float | None:

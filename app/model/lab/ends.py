@@ -65,7 +65,7 @@ _changing = threading.Condition()  # guards _kept and _under_way; notified when 
 
 def of_spins(start: Setup) -> Setup:
     """The start of which the Ends are: any spin, let go with G at rest."""
-    return replace(start, spin=0.0, slip=1.0, rolling=None, seconds=SECONDS)
+    return replace(start, spin=0.0, slip=1.0, rolling=None, seconds=SECONDS, pushes=())
 
 
 ARRIVAL = of_spins(start_of(*arrival.ARRIVAL[1:]))

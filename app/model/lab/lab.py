@@ -14,13 +14,14 @@ import param
 
 from app.model.arrival import TILT
 from app.model.keeps import keeps, while_it_turns
-from app.model.lab.allowed import LIMITS, POSSIBLE, below, fault, nearest
+from app.model.lab.allowed import LIMITS, POSSIBLE, below, fault, nearest, refusal
 from app.model.lab.ends import Ends, ends_once, known_ends, of_spins
-from app.model.run import SHIPS, TableMotion, motion_on, whole_on, why_not
+from app.model.run import SHIPS, TableMotion, check_pushes, motion_on, whole_on
 from app.model.runs import LATER, Result, Run, Runs, Stopped
 from app.model.setup import OF_LAW, TABLES, Setup, Toy
+from app.model.side_by_side import of_all
 from app.model.start import NUMBERS, Start, arrives, of_toy
-from app.model.story import Event, Stage, Story, of_all, story
+from app.model.story import Event, Stage, Story, story
 from app.text import say
 from app.together import set_together
 from tippe_core import Outcome, TopError, outcome, strongest_friction
@@ -29,7 +30,7 @@ from tippe_core.types import Array
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
 OF_TOP = ("a", "I1", "I3")
 WATCHED = ("table", "shape", *OF_TOP, "given", "spin", "tilt", "slip", "theta_dot", "omega2", "law", *NUMBERS,
-           "landing", "stem")  # fmt: skip
+           "landing", "stem", "pushes")  # fmt: skip
 Inputs = tuple[str, Setup]
 FIRST: Inputs = SHIPS
 IN_LAB = {"mu_k": "mu", "friction": "mu", "radius": "patch"}
@@ -95,14 +96,16 @@ def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
     watched, seen = tuple(TABLES) if table == "three" else (table,), whole_on if whole else motion_on
     motions: dict[str, TableMotion | None] = dict.fromkeys(TABLES)
     refused: dict[str, str] = {}
+    why: TopError | None = None
     for each in watched:
         try:
             motions[each] = seen(each, start)
         except TopError as error:
             if error.code in ("body-below-table", "below-sliding", "too-strong"):
                 raise
-            refused[each] = _sentence(error)
+            refused[each], why = refusal(error), error
     found = {name: motion for name, motion in motions.items() if motion is not None}
+    check_pushes(start, [*found.values()], why)
     stories = {name: story(motion) for name, motion in found.items()}
     return LabScene(
         table=table, start=start, motions=MappingProxyType(motions),
@@ -112,13 +115,6 @@ def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
         turning=while_it_turns(found["ordinary"]) if "ordinary" in found else None,
         whole=whole or (table != "three" and all(motion.whole for motion in found.values())),
     )  # fmt: skip
-
-
-def _sentence(error: TopError) -> str:
-    """Why a start is impossible."""
-    if error.code in ("stem-below-table", "body-below-table"):
-        return say(f"lab.refused.{error.code}", tilt=error.value, most=error.numbers["most"])
-    return why_not(error)
 
 
 class Lab(param.Parameterized):
@@ -133,10 +129,10 @@ class Lab(param.Parameterized):
     scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last result; None before show()")
     ends = param.Parameter(None, constant=True, doc="Ends over the slider's spins; None until they are computed")
 
-    INPUTS = ("table", "toy", "spin", "tilt", "slip", "law", *NUMBERS, "landing", "stem")
+    INPUTS = ("table", "toy", "spin", "tilt", "slip", "law", *NUMBERS, "landing", "stem", "pushes")
 
     def __init__(self, runs: Runs | None = None, start: Start | None = None) -> None:
-        self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
+        self.start = start or Start(**arrives())
         self._runs = runs or Runs()
         self._run: Run | None = None
         self._shown = self.begun = self._again = self.rests = False
@@ -144,7 +140,7 @@ class Lab(param.Parameterized):
         self.refused: dict[str, object] = {}  # the values of a link, or of another room, that cannot be
         self.nearest: dict[str, float] = {}  # what can be, of each input that was refused as a number
         self._good = FIRST
-        self._back = Start(**arrives()).set  # type: ignore[no-untyped-call]  # what sets the Start back to it
+        self._back = Start(**arrives()).set  # what sets the Start back to it
         self._strip: Setup | None = None
         self._seen: Inputs | None = None  # the inputs at the last call of _follow()
         super().__init__()  # type: ignore[no-untyped-call]  # of param
@@ -265,7 +261,7 @@ class Lab(param.Parameterized):
         if error is not None and (error.name in OF_TOP or self.start.given != "hand"):
             return  # an input that is not the Lab's; its own control says why, and keeps the value until it is changed
         if error is not None:
-            faults["tilt"] = _sentence(error)  # which any start by hand has
+            faults["tilt"] = refusal(error)  # which any start by hand has
         if faults:  # they came from a link, or from another room
             self._messages |= faults
             self.start.later(**self._back)
@@ -316,10 +312,11 @@ class Lab(param.Parameterized):
             raise result
 
     def _refused(self, inputs: Inputs, error: TopError) -> None:
-        """Sets a refused input back; if a new body cannot have this tilt, it gets the tilt of the last scene or the
-        default."""
+        """Sets a refused input back; takes a push away; if a new body cannot have this tilt, it gets the tilt of the
+        last scene or the default."""
         name = IN_LAB.get(error.name, error.name if error.name in LIMITS else "tilt")
-        self._messages[name] = _sentence(error)
+        name = "pushes" if inputs[1].pushes else name
+        self._messages[name] = refusal(error)
         if error.code == "body-below-table":
             self.nearest[name] = floor(10 * error.numbers["most"]) / 10  # its slider's digits
         elif error.code == "below-sliding":
@@ -331,7 +328,10 @@ class Lab(param.Parameterized):
         good = self._good[1]
         known = good.toy == self.start.toy and self.scene
         back = self._back
-        if name == "tilt" and self.start.at_rest:
+        if name == "pushes":
+            here = replace(inputs[1], pushes=good.pushes, seconds=good.seconds) == good
+            back = {"pushes": (here and good.pushes) or inputs[1].pushes[:-1]}  # the others may be of a link
+        elif name == "tilt" and self.start.at_rest:
             back = {"tilt": good.tilt if known else TILT}
         elif name in self.nearest and self._differs_elsewhere(inputs[1]):
             back = {name: self.nearest[name]}  # the rest, which may be of a link, stays

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.model.events import happened
-from app.model.motion import Motion
+from app.model.motion import PUSHED, Motion
 from app.model.phases import carried
 from app.model.regimes import NAMES
 from app.model.run import TableMotion
@@ -56,7 +56,7 @@ def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
 def _touches(motion: TableMotion, unit: float, part: str) -> list[tuple[float, str]]:
     """The events of its contacts; those that follow each other too fast to be seen are one series. That it sticks for
     good is told as the table's grip."""
-    happens = [(unit * t, event) for t, event in motion.trajectory.events]
+    happens = [(unit * t, event) for t, event in motion.trajectory.events if event != PUSHED]
     grips = motion.cuts.get("rolls", np.inf)
     last_slip = max((t for t, event in happens if event == "slips" and t < grips), default=0.0)
     series: list[list[tuple[float, str]]] = []

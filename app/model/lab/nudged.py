@@ -8,8 +8,9 @@ NUDGE, BESIDE = 1e-6, 3.0  # rad, s: the additional tilt of the second run, and 
 
 
 def hits(motion: TableMotion | None) -> bool:
-    """Whether anything but its ball touched; that makes a motion sensitive to its start."""
-    return motion is not None and motion.ending is not None and len(motion.ending.stretches) > 1
+    """Whether anything but its ball touched; that makes a motion sensitive to its start. Not if it is pushed, which the
+    second run is not."""
+    return motion is not None and not motion.pushes and motion.ending is not None and len(motion.ending.stretches) > 1
 
 
 def nudged(motion: TableMotion, progress: Progress | None = None) -> float:

@@ -17,8 +17,10 @@ from app.model.inputs import INPUTS
 from app.model.lab.allowed import LIMITS, SHOWN
 from app.model.lab.examples import EXAMPLES
 from app.model.lab.lab import FIRST, Lab
+from app.model.pushes import push_words
 from app.model.setup import OF_LAW, shape_of
 from app.state import asked
+from app.state.codecs import Pushes
 from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
 from app.tabs.lab.words import is_caught, notes
@@ -131,6 +133,8 @@ class LabTab:
             if asked.text(value) not in EXAMPLES:
                 raise asked.Unasked(value)
             self._lab.ask(**EXAMPLES[value])
+        elif name == "pushes":
+            self._lab.ask(pushes=self._pushes(value))
         elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
             self._tried[name], self._wrong, self._near = value, {}, {}
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
@@ -143,6 +147,13 @@ class LabTab:
             self.show()
         elif self._looks == looks:  # else the run itself, or the next look at it, will show it
             self._wait(SOON)
+
+    @staticmethod
+    def _pushes(value):
+        try:
+            return Pushes.value(asked.text(value))
+        except ValueError as error:
+            raise asked.Unasked(value) from error
 
     def _of_body(self, name, value):
         """The inputs of the Lab for a dimension of the body, in its unit; none, and a sentence at that input, if there
@@ -249,6 +260,7 @@ class LabTab:
                 "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
                 if isinstance(scene.toy, str)
                 else [repr(scene.toy), say("main.own")],
+                "pushes": [Pushes.text(start.pushes), push_words(start.pushes), view["push"]],
                 "table": [scene.table, f"{view['table']} {view['tables'][scene.table]}", view["table"]],
                 **{
                     name: [size, self._sized(dimensions(scene.toy)[name], size), _word(dimensions(scene.toy)[name])]
@@ -261,6 +273,7 @@ class LabTab:
             "caught": ordinary is not None and is_caught(ordinary),
             "touches": start.shape is not None and start.shape.touch_angle is not None,
             "R": 1e3 * start.scales.R,
+            "impulse": start.impulse,
             "whole": scene.whole,
         }
 
@@ -278,6 +291,7 @@ class LabTab:
         """The inputs in which two starts differ, in words, with the values of `one`."""
         names = (name for name in inputs_of(one.law) if getattr(one, name) != getattr(other, name))
         law = [listed("planes.law")[one.law]] if one.law != other.law else []
+        law += [push_words(one.pushes)] if one.pushes != other.pushes else []
         return ", ".join([*law, *(self._named(one, name) for name in names)])
 
     @staticmethod

@@ -5,6 +5,7 @@ import html
 import numpy as np
 
 from app.model.motion import RTOL, THROWN
+from app.model.pushes import push_words
 from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.typeset import power
@@ -91,6 +92,8 @@ def outcome_words(goes, scales):
 def ball_words(scene):
     """What friction would do to the ball alone, and how far that applies to this run."""
     settings, sliding = scene.start, scene.motions["ordinary"]
+    if settings.pushes:
+        return ""  # it is said of the start alone
     if settings.is_frictionless:
         heat = sliding.trajectory.heat[-1] if sliding else 0.0
         if heat > ROUNDING:
@@ -129,7 +132,8 @@ def run_words(settings, table):
     touches = "stem" if settings.edge else "ball"
     start = "start" if settings.rolling is None else "rolling"
     turns = state.omega3 * settings.scales.angular_velocity / (2 * np.pi)
-    return say("planes.run.of", a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
+    pushes = f", {push_words(settings.pushes)}" * bool(settings.pushes)
+    return say("planes.run.of", pushes=pushes, a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
                body=say(f"planes.run.{touches}", part=part(settings)), rtol=power(RTOL),
                law=in_force(settings, table),
                start=say(f"planes.run.{start}", tilt=degrees(state.theta), spin=turns, slip=settings.slip))  # fmt: skip
@@ -149,8 +153,9 @@ def table_words(scene):
             motion = scene.motions[table]
             cells.append(f"<td>{drift_words(name, motion) if motion else say('planes.drift.nothing')}</td>")
         rows.append(f"<tr><td>{say(f'planes.survives.{name}')}</td>{''.join(cells)}</tr>")
+    of = say(f"planes.drift.{'since' if scene.start.pushes else 'of'}")
     return (f"<table><tr><th>{say('planes.drift.measured')}</th>{head}</tr>{''.join(rows)}</table>"
-            f'<div class="key">{say("planes.drift.of")}</div>')  # fmt: skip
+            f'<div class="key">{of}</div>')  # fmt: skip
 
 
 def drift_words(name, motion):

@@ -1,6 +1,6 @@
 // Shows one picture at a time; each answers a question about the run: where the height comes from, which way the top
 // turns, where it touches the table.
-import { ENERGY, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
+import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
 import { lineOf } from "./numbers.js";
 import { Choice, drawn, part, say } from "./parts.js";
 import { Frames } from "../motion/frames.js";
@@ -175,7 +175,7 @@ export class Answer {
 
   energy() {
     const { curves, texts } = this, said = texts.answers.energy, start = curves.value(0, ENERGY);
-    const { y, found } = this.axes(0, 1.03 * this.range(ENERGY)[1], "mm");
+    const levels = this.levels(), { y, found } = this.axes(0, 1.03 * Math.max(this.range(ENERGY)[1], ...levels.map(([, level]) => level)), "mm");
     const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${LEFT},${this.bottom}`;
     const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
     const words = [], put = (share, height, text, more, kind) => words.push(
@@ -197,8 +197,19 @@ export class Answer {
       ...found,
       drawn("polygon", { class: "spins", points: `${line(ENERGY)} ${floor}` }), drawn("polygon", { class: "lifts", points: `${line(HEIGHT)} ${floor}` }),
       drawn("polyline", { class: "energy", points: line(ENERGY) }), ...this.then(y, ENERGY),
-      drawn("line", { class: "first", x1: LEFT, x2: this.right, y1: y(start), y2: y(start) }), this.now, ...words,
+      drawn("polyline", { class: "first", points: levels.map(([time, level]) => `${this.x(time)},${y(level)}`).join(" ") }), this.now, ...words,
     ];
+  }
+
+  // The energy and what has become heat: as at the start, and from each push on another, as points (t, energy).
+  levels() {
+    const { curves, scene, time } = this, events = scene.runs[scene.table === "three" ? "ordinary" : scene.table]?.events ?? [];
+    const from = [0, ...events.filter(([, code]) => code === "push").map(([t]) => t)];
+    return from.flatMap((t, i) => {
+      const until = from[i + 1] ?? (time.span || 1), middle = (t + Math.min(until, curves.end)) / 2;
+      const level = curves.at(middle, ENERGY) + curves.at(middle, HEAT) - curves.value(0, HEAT);
+      return [[t, level], [until, level]];
+    });
   }
 
   spin() {

@@ -42,6 +42,7 @@ export class Keeps {
     this.texts = texts;
     this.body = part("tbody");
     this.until = part("span", { class: "small" });
+    this.pushes = /** @type {number[]} */ ([]); // their times, s
     this.element = part("section", { class: "keeps", tabindex: 0, "aria-label": texts.keeps }, // scrolls on a phone
       part("div", { class: "titled" }, part("h2", {}, texts.keeps), part("span", { class: "half" }, texts.keep.half), this.until),
       part("table", {}, part("thead", {}, part("tr", {}, part("td"), ...texts.kept.map((word) => part("th", { scope: "col" }, word)))), this.body));
@@ -49,6 +50,7 @@ export class Keeps {
 
   show(scene) {
     const { texts } = this;
+    this.pushes = Object.values(scene.runs).flatMap((run) => run?.events ?? []).flatMap(([at, code]) => (code === "push" ? [at] : []));
     this.tables = scene.table === "three" ? TABLES.map((name) => {
       const rows = float32(scene.keeps[name]);
       const cells = texts.kept.map(() => ({ mark: drawn("svg", { viewBox: "0 0 14 14", width: 14, height: 14, "aria-hidden": "true" }), word: part("span"), numbers: part("span", { class: "small" }), kind: "" }));
@@ -64,7 +66,8 @@ export class Keeps {
   at(t) {
     const { texts, tables = [] } = this;
     if (!tables.length) return;
-    this.until.textContent = say(texts, texts.span, { t: [t, 2] });
+    const since = Math.max(0, ...this.pushes.filter((push) => push <= t + ROUNDED)); // of the last push
+    this.until.textContent = say(texts, texts.span, { from: [since, since ? 2 : 0], t: [t, 2] });
     for (const { rows, cells } of tables) {
       if (!rows.length) continue;
       keptAt(rows, t, texts).forEach(([kind, word, numbers], k) => {

@@ -5,6 +5,7 @@ import { Asking } from "./asking.js";
 import { Before } from "./before.js";
 import { Controls } from "./controls.js";
 import { Curves, TABLES } from "./curves.js";
+import { Flicking } from "./flick.js";
 import { Keeps } from "./keeps.js";
 import { Numbers } from "./numbers.js";
 import { part } from "./parts.js";
@@ -22,7 +23,7 @@ const TELL_MS = 80; // ms without a change of the time after which Python is tol
 const SAME = 1e-9; // s
 const PATIENCE = 100; // ms that the old picture may be beside the new start without a remark
 
-class Lab {
+export class Lab {
   /** @param {Rendering<LabModel>} rendering */
   constructor({ model, el }) {
     const { texts } = model;
@@ -39,13 +40,14 @@ class Lab {
     const ask = (name, value) => this.ask(name, value);
     this.before = new Before(texts);
     this.time.chose = (speed) => (model.speed = speed);
-    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), camera: model.camera, set: (name, value) => (model[name] = value) });
+    this.flick = new Flicking(this);
+    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), flick: this.flick, camera: model.camera, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
     this.words = new Words(texts, ask, () => this.goBack());
     this.answer = new Answer(texts, this.time);
     this.keeps = new Keeps(texts);
     this.numbers = new Numbers(texts);
-    this.controls = new Controls(texts, ask, () => this.spin());
+    this.controls = new Controls(texts, ask, () => this.anewSpin());
     this.controls.element.append(this.numbers.element);
     this.element = part("div", { class: "lab" }, this.stage.element, this.strip.element, this.words.element,
       this.answer.element, this.keeps.element, this.controls.element);
@@ -127,6 +129,12 @@ class Lab {
     };
   }
 
+  // Let go by a hand anew, nothing pushes it.
+  anewSpin() {
+    if (this.scene?.state.of.pushes[0]) this.ask("pushes", "");
+    this.spin();
+  }
+
   spin() {
     this.time.again();
     this.time.play(true);
@@ -167,6 +175,7 @@ class Lab {
     if (!this.isBegun && scene.end) this.begin();
     this.element.toggleAttribute("data-whole", Boolean(scene.state.whole)); // for tests only
     this.element.classList.toggle("old", Boolean(scene.state.old));
+    this.flick.answered();
     if (this.anew === scene.table) {
       this.anew = "";
       this.spin();

@@ -13,17 +13,17 @@ export class Stage {
    * @param {Record<string, any>} texts
    * @param {import("./time.js").Time} time
    * @param {(name: string, value: any) => void} ask
-   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void }, camera: number[], set: (name: string, value: any) => void }} of
+   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void }, flick: Hand, camera: number[], set: (name: string, value: any) => void }} of
    *     forget: dismisses the earlier run; camera: the chosen view, or empty; set: sets it, and what is shown
    */
-  constructor(texts, time, ask, { forget, hand, camera, set }) {
+  constructor(texts, time, ask, { forget, hand, flick, camera, set }) {
     this.texts = texts;
     this.time = time;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // below three tops: what each of them does
     const words = { ...texts, hint: texts.turn_hint, handle: texts.axis, handle_hint: texts.axis_hint };
-    this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand, camera, turned: (chosen) => set("camera", chosen) });
-    this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
+    this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand, flick, camera, turned: (chosen) => set("camera", chosen) });
+    this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75, flick }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));
     this.places = [part("div", { class: "place" }, this.alone.element),
       ...this.three.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i]))];
@@ -85,7 +85,7 @@ export class Stage {
       if (this.element.isConnected) top.begin();
     });
     TABLES.forEach((name, i) => this.captions[i].replaceChildren(...(three ? this.caption(name) : [])));
-    const why = three ? "" : scene.runs[table]?.why ?? "";
+    const why = (three ? "" : scene.runs[table]?.why ?? "") || (state.messages.pushes ?? "");
     this.missing.textContent = why;
     this.missing.hidden = !why;
     this.old = state.old ? say(texts, texts.old, { what: state.old }) : "";

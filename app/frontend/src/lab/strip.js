@@ -151,7 +151,9 @@ export class Strip {
   events() {
     const { scene, texts } = this;
     if (scene.table === "three") return [];
-    const { size } = this, events = scene.runs[scene.table]?.events ?? [];
+    const { size } = this, isPush = ([, code]) => Number(code === "push"); // which finds its place first
+    /** @type {any} */
+    const events = [...(scene.runs[scene.table]?.events ?? [])].sort((one, other) => isPush(other) - isPush(one));
     const when = (t) => say(texts, "{t} s", { t: [t, 1] });
     const lines = events.map(([t, , word, short]) => [this.x(t), `${word} ${when(t)}`, `${short} ${when(t)}`]);
     const words = placed(lines, -GAP, this.width, (word) => LETTER * size * word.length);

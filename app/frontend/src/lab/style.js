@@ -114,7 +114,7 @@ const answer = `
 svg .washed { stroke: var(--wash); } svg .inside { fill: var(--ground); stroke: var(--lift); }
 .answer { --wash: var(--q-energy-wash); --lift: var(--q-energy); }
 .lab.old .answer { --wash: color-mix(in srgb, var(--q-energy-wash) 38%, var(--ground)); --lift: color-mix(in srgb, var(--q-energy) 38%, var(--ground)); }
-.first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
+.first { fill: none; stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
 .own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
 .readout { position: absolute; background: var(--ground); border: 1px solid var(--line-2); border-radius: 6px; padding: 2px 8px; font-size: var(--t-s); white-space: nowrap; pointer-events: none; font-variant-numeric: tabular-nums; z-index: 1; }

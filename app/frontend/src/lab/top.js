@@ -16,16 +16,17 @@ export class Top {
    * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time
    * @param {number} of.away distance of the camera, in units of the distance at which the whole top just fits
    * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what dragging the axis does
+   * @param {Hand} [of.flick] what a flick on the top does
    * @param {number[]} [of.camera] the view that a person chose before @param {(camera: number[]) => void} [of.turned] hears of another
    */
-  constructor({ texts, label, time, away, hand, camera: before = [], turned }) {
+  constructor({ texts, label, time, away, hand, flick, camera: before = [], turned }) {
     const listeners = new Map(), put = (changes) => this.put(changes), first = [-1.12, 0.26, away];
     let camera = before.length ? before : first;
     this.listeners = listeners;
     this.element = part("div", { class: "top" });
     const values = {
       texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
-      tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
+      flick, tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
       get camera() { return camera; },
       set camera(chosen) {
         camera = chosen.length ? chosen : first;

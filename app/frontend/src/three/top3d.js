@@ -4,6 +4,7 @@ import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
 import { coalesce, float32, tidy } from "../data.js";
 import { Eye } from "./eye.js";
+import { Flick } from "./flick.js";
 import { renderFlat } from "../figures/flat.js";
 import { Ghost } from "./ghost.js";
 import { Handle } from "./handle.js";
@@ -40,6 +41,7 @@ class Top {
     this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model);
     this.ghost = model.before === undefined ? null : new Ghost(stage);
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
+    this.flick = model.flick ? new Flick(stage, this.scene, this.player, model.flick) : null;
     this.bar = new Bar(root, picture, model, this.player, () => {
       model.camera = [];
       this.look();
@@ -111,6 +113,7 @@ class Top {
     scene.pose(frames, place, model, this.highlight);
     const { regime, theta } = scene.moment;
     this.handle?.follow(scene.body, theta, some, playing);
+    this.flick?.follow();
     this.ghost?.follow(this.player.t, model.seconds);
     this.measured?.follow(scene.body, this.player.t);
     this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
