@@ -4,6 +4,7 @@ import html
 
 import numpy as np
 
+from app.model.lab.traced import turns_back
 from app.model.motion import RTOL, THROWN
 from app.model.setup import TABLES
 from app.text import listed, say, written
@@ -43,6 +44,14 @@ def part(settings):
 
 def happens(event, settings):
     return say(f"planes.events.{event}", part=part(settings))
+
+
+def trace_words(moved):
+    """Which way the trace on the ball runs, and where it turns back; "" if it does not."""
+    back = turns_back(moved)
+    if back is None:
+        return ""
+    return say("lab.trace.with" if back.runs_with else "lab.trace.against", tilt=np.degrees(back.theta))
 
 
 # ---- how the motion ended ----

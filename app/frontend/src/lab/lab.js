@@ -42,7 +42,7 @@ class Lab {
     this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), camera: model.camera, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
     this.words = new Words(texts, ask, () => this.goBack());
-    this.answer = new Answer(texts, this.time);
+    this.answer = new Answer(texts, this.time, () => this.showLevel());
     this.keeps = new Keeps(texts);
     this.numbers = new Numbers(texts);
     this.controls = new Controls(texts, ask, () => this.spin());
@@ -109,7 +109,7 @@ class Lab {
     const { model, element, stage, time } = this, isOpen = model.level === "research";
     element.dataset.level = model.level;
     time.chosen = model.speed;
-    stage.dress(model, isOpen);
+    stage.dress(model, isOpen, this.answer.name === "trace");
     this.show();
   };
 

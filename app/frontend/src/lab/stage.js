@@ -54,10 +54,11 @@ export class Stage {
       this.pill, this.chip, this.menu, this.missing);
   }
 
-  // Shows what of a motion is to be shown, and the chosen view; nothing but the top unless all of it is open.
-  /** @param {LabModel} model @param {boolean} isOpen */
-  dress(model, isOpen) {
-    const shown = isOpen ? Object.fromEntries(SHOWS.map((name) => [name, model[name]])) : NOTHING;
+  // Shows what of a motion is to be shown, and the chosen view; nothing but the top unless all of it is open, and the
+  // trace on the ball beside its map.
+  /** @param {LabModel} model @param {boolean} isOpen @param {boolean} isMapped */
+  dress(model, isOpen, isMapped) {
+    const shown = isOpen ? Object.fromEntries(SHOWS.map((name) => [name, model[name]])) : { ...NOTHING, show_trace: isMapped };
     for (const top of this.tops) {
       top.put(shown);
       top.element.toggleAttribute("data-arrows", ARROWS.some((name) => shown[name]));
