@@ -162,7 +162,6 @@ interface TopsMapModel extends Model {
 interface GuideModel extends Model {
   tour: boolean;
   said: string;
-  seconds: number;
 }
 
 interface HeadModel extends Model {

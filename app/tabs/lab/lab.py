@@ -21,7 +21,7 @@ from app.model.setup import OF_LAW, shape_of
 from app.state import asked
 from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
-from app.tabs.lab.words import is_caught, notes, trace_words
+from app.tabs.lab.words import carried_words, is_caught, notes, trace_words
 from app.text import listed, say, speaking, spoken
 from app.widgets.controls import valid
 from app.widgets.failure import after
@@ -301,7 +301,7 @@ class LabTab:
         """The run on a table in words; None if the table is not watched."""
         if table in scene.refused:
             return {"events": [], "stages": [], "caption": "", "why": spelled(scene.refused[table]), "jellett": "",
-                    "trace": ""}  # fmt: skip
+                    "trace": "", "carried": []}  # fmt: skip
         if table not in scene.stories:
             return None
         story = scene.stories[table]
@@ -311,5 +311,6 @@ class LabTab:
             "caption": spelled(story.caption),
             "why": "",
             "jellett": LabTab._jellett(scene) if table == "ordinary" else "",
+            "carried": [[t, spelled(word)] for t, word in carried_words(scene.motions[table])],
             "trace": spelled(trace_words(scene.motions[table].trajectory)),
         }

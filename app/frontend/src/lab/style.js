@@ -67,6 +67,8 @@ const stage = `
 .ring span { font-size: var(--t-s); text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
 .caption { position: absolute; left: 0; right: 0; bottom: 20px; text-align: center; color: var(--scene-faint, #4a5563); padding: 0 8px; pointer-events: none; }
 .caption b, .caption .does { color: var(--scene-ink, #1d2733); }
+
+.unseen { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 .missing { position: absolute; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
 @container (max-width: 700px) {
   .on { left: 8px; right: 8px; top: 8px; gap: 4px; } .switch > b { display: none; } .seg button { padding: 0 9px; min-height: 44px; }

@@ -67,7 +67,7 @@ class Head {
     this.tour = guide("tour");
     return part("div", { class: "menu", role: "group", "aria-label": texts.more, hidden: true },
       part("div", { class: "narrow" }, this.levels[1].element, part("span", {}, ...this.steps[1], this.shares[1])),
-      this.languages.element, ...this.switches.map(({ element }) => element), this.tour, guide("keys"));
+      this.languages.element, ...this.switches.map(({ element }) => element), this.tour, guide("keys"), guide("statement"));
   }
 
   /** @param {boolean} whether */
