@@ -1,11 +1,11 @@
-"""What the top does, told in Chromium beside the picture of it: in words and as a trace on its ball."""
+"""What the top does, told in Chromium beside the picture of it: in words, as a trace on its ball, as sound."""
 
 import re
 
 import numpy as np
 import pytest
 from axe import check
-from lab_page import arrival
+from lab_page import TIME, arrival, come, pause
 
 from app.model.run import whole_on
 from app.model.setup import start_of
@@ -53,3 +53,37 @@ def test_the_trace_is_on_the_ball_beside_its_map_and_the_statement_in_the_menu(s
         page.keyboard.press("Escape")
         page.keyboard.press("F1")
         page.get_by_role("dialog", name="Keys").wait_for()
+
+
+LISTENED = """
+window.made = []
+const Context = window.AudioContext
+window.AudioContext = class extends Context {
+  constructor() { super(); window.made.push(this); this.gains = [] }
+  createGain() { const gain = super.createGain(); this.gains.push(gain.gain); return gain }
+}
+"""
+
+
+def test_it_is_silent_until_a_person_wants_sound_and_whenever_it_stands_still(server, chromium):
+    """Its rubbing and its hum; Chromium has a clock for its sound even where nothing can be heard."""
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="no-preference") as context:
+        context.add_init_script(LISTENED)
+        page = come(context.new_page(), f"{server}?").page
+        page.locator(".lab[data-whole]").wait_for()
+        page.wait_for_function(f"{TIME} > 2")  # it plays
+        assert page.evaluate("made.length") == 0
+        page.get_by_role("button", name="More", exact=True).click()
+        page.get_by_role("switch", name="sound").check()
+        page.wait_for_function("made.length == 1 && made[0].state == 'running' && made[0].gains[0].value > 0.01")
+        page.wait_for_function("made[0].gains[1].value > 0.01")
+        pause(page)
+        page.wait_for_function("made[0].state == 'suspended'")
+        page.get_by_role("button", name="Play", exact=True).click()
+        page.wait_for_function("made[0].state == 'running'")
+        page.get_by_role("button", name="More", exact=True).click()
+        page.get_by_role("switch", name="sound").uncheck()
+        page.wait_for_function("made[0].state == 'closed'")
+        page.reload()
+        page.wait_for_function(f"{TIME} > 2")
+        assert page.evaluate("made.length") == 0 and "sound" not in page.url

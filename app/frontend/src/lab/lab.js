@@ -8,6 +8,7 @@ import { Curves, TABLES } from "./curves.js";
 import { Keeps } from "./keeps.js";
 import { Numbers } from "./numbers.js";
 import { part } from "./parts.js";
+import { Sound } from "./sound.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
@@ -37,6 +38,7 @@ class Lab {
     this.asking = new Asking((...asked) => (model.asked = asked));
     this.press = new Press();
     const ask = (name, value) => this.ask(name, value);
+    this.sound = new Sound();
     this.before = new Before(texts);
     this.time.chose = (speed) => (model.speed = speed);
     this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), camera: model.camera, set: (name, value) => (model[name] = value) });
@@ -162,6 +164,7 @@ class Lab {
     this.element.dataset.table = scene.table;
     scene.bytes = model.profile;
     this.stage.show(scene);
+    this.sound.show(scene);
     for (const shown of [this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.show(scene);
     this.controls.show(scene, this.asking.isAhead);
     if (!this.isBegun && scene.end) this.begin();
@@ -194,6 +197,7 @@ class Lab {
   at() {
     if (!this.scene) return;
     if (this.isTold) this.tell();
+    this.sound.at(this.time.t, this.time.playing && !this.time.held);
     for (const shown of [this.stage, this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.at(this.time.t);
   }
 
@@ -202,7 +206,7 @@ class Lab {
     this.show.cancel();
     this.tell.cancel();
     window.removeEventListener("tippe:command", this.tells);
-    for (const gone of [this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
+    for (const gone of [this.sound, this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
     this.unfollow();
   }
 }

@@ -16,17 +16,23 @@ const MOST = 16; // marks from one frame to the next, at most
 /** @param {import("./frames.js").Frames} frames @param {number | null} a as of centreOf() @returns {Trace} */
 export function traceOf(frames, a) {
   const pose = emptyPose(), next = emptyPose(), trace = /** @type {Trace} */ ({ places: [], marks: [], on: [] });
+  const touches = (mark) => Math.abs(mark.length() - 1) < ON;
+  const markAt = (place) => {
+    frames.read(place, pose);
+    return centreOf(pose, a, new Vector3()).negate().add(pose.contact).applyQuaternion(pose.quaternion.conjugate());
+  };
+  const put = (place, mark, on) => {
+    trace.places.push(place);
+    trace.marks.push(mark);
+    trace.on.push(on);
+  };
   for (let i = 0; i < frames.count; i++) {
+    const mark = markAt(i), isOn = touches(mark);
+    put(i, mark, isOn);
     frames.read(i, pose);
     frames.read(i + 1, next);
-    const steps = Math.min(Math.max(Math.ceil(pose.quaternion.angleTo(next.quaternion) / TURN), 1), MOST);
-    for (let k = 0; k < steps; k++) {
-      if (k) frames.read(i + k / steps, pose);
-      const mark = centreOf(pose, a, new Vector3()).negate().add(pose.contact).applyQuaternion(pose.quaternion.conjugate());
-      trace.places.push(i + k / steps);
-      trace.marks.push(mark);
-      trace.on.push(Math.abs(mark.length() - 1) < ON);
-    }
+    const steps = Math.min(Math.ceil(pose.quaternion.angleTo(next.quaternion) / TURN), MOST), staysOn = steps > 1 && isOn && touches(markAt(i + 1));
+    for (let k = 1; k < steps; k++) put(i + k / steps, markAt(i + k / steps).normalize(), staysOn);
   }
   return trace;
 }
