@@ -52,7 +52,8 @@ HITS = {"stem touches", "ball touches", "lifts off", "lands", "lands on its stem
 OF_LAW = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 """{law: its numbers, by the names of a Start}: the patch in mm, the others without unit or in R, M and g."""
 SHOWN = {"track": "show_track", "trace": "show_trace", "path of G": "show_com_path", "force": "show_force",
-         "cone": "show_cone", "angular velocity": "show_omega", "angular momentum": "show_momentum", "follows": "follow"}  # fmt: skip
+         "cone": "show_cone", "angular velocity": "show_omega", "angular momentum": "show_momentum",
+         "follows": "follow"}  # fmt: skip
 
 
 class NoStore:
