@@ -105,7 +105,7 @@ def opened(link):
         settings["dark"] = bool(settings["dark"])  # None if nobody has chosen: then the system decides
         room, hand = room_of(link), explorer.given == "hand"
         planes = room == "three-planes"
-        for name in ("table", "panel", "push"):  # of which those links knew nothing
+        for name in ("table", "panel", "push", "trace"):  # of which those links knew nothing
             settings.pop(name, None)
         if planes:  # as in the three planes
             settings |= {"start": "spin" if hand else "constants", "plane": PLANE[explorer.table],

@@ -51,8 +51,9 @@ DIGITS = 12
 HITS = {"stem touches", "ball touches", "lifts off", "lands", "lands on its stem", "rim touches"}
 OF_LAW = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 """{law: its numbers, by the names of a Start}: the patch in mm, the others without unit or in R, M and g."""
-SHOWN = {"track": "show_track", "path of G": "show_com_path", "force": "show_force", "cone": "show_cone",
-         "angular velocity": "show_omega", "angular momentum": "show_momentum", "follows": "follow"}  # fmt: skip
+SHOWN = {"track": "show_track", "trace": "show_trace", "path of G": "show_com_path", "force": "show_force",
+         "cone": "show_cone", "angular velocity": "show_omega", "angular momentum": "show_momentum",
+         "follows": "follow"}  # fmt: skip
 
 
 class NoStore:
@@ -134,11 +135,14 @@ def speed_of(link):
 
 
 def today(link, what):
-    """What a link opens today, from what it opened: a run goes on to its end."""
+    """What a link opens today, from what it opened: a run goes on to its end, and the trace is on the ball."""
     if what.get("room") in OLD:
         what = what | {"room": "lab", "level": "research"}
     if "playing" in what and "slow=" not in link:
         what = what | {"playing": what["playing"] | {"speed": speed_of(link)}}
+    if "playing" in what and "trace=no" not in link:
+        shown = {*what["playing"]["shows"], "trace"}
+        what = what | {"playing": what["playing"] | {"shows": [name for name in SHOWN if name in shown]}}
     if "said" in what:
         what = what | {"said": what["said"].replace("roll, three-planes, ", "")}
     if "run" in what:

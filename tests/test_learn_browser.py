@@ -182,7 +182,7 @@ def test_a_lesson_goes_on_where_nothing_can_be_sent(learn):
     page = found.page
     page.locator(".crumbs button").nth(1).wait_for()
     page.evaluate(REFUSES)
-    page.keyboard.press("p")
+    page.keyboard.press("Alt+p")
     page.locator(".lesson.present .board").wait_for()
     page.evaluate(REFUSES)
     assert page.evaluate("lost")
@@ -208,7 +208,7 @@ def presented(page):
     page.get_by_role("radio", name="For teachers", exact=True).click()
     page.get_by_role("button", name=say("teach.vote.close")).wait_for()
     check(page, "for teachers")
-    page.get_by_role("button", name="Present to a class (P)", exact=True).click()
+    page.get_by_role("button", name="Present to a class (Alt+P)", exact=True).click()
     page.locator(".lesson.present .board").wait_for()
 
 
@@ -225,7 +225,7 @@ def fits(page):
 
 def revealed(page, step):
     """Reveals a step by its key, and drags the time to its end."""
-    page.keyboard.press("r")
+    page.keyboard.press("Alt+r")
     bar = page.get_by_role("slider", name=say("learn.view.time"), exact=True)
     page.wait_for_function("([bar, end]) => Number(bar.max) >= end - 0.01",
                            arg=[bar.element_handle(), step.end])  # fmt: skip
@@ -299,7 +299,7 @@ def test_a_class_with_two_phones_that_goes_on_where_the_network_does_not(chromiu
     sent(students[0], other)
     students[0].reload()
     sent(students[0], other)
-    page.keyboard.press("0")
+    page.keyboard.press("Alt+0")
     page.locator(".count b", has_text=re.compile("^0$")).wait_for()
     for phone, language in zip(students, languages, strict=True):
         phone.get_by_role("heading", name=say("learn.flips.question", language)).wait_for()

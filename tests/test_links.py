@@ -48,7 +48,7 @@ def approximately(found, rel=1e-9, least=1e-12):
     return pytest.approx(found, rel=rel, abs=least) if type(found) is float else found
 
 
-NEWER = {"map", "mapby", "mapat", "table", "panel", "push", LEVEL}  # than the links that are kept
+NEWER = {"map", "mapby", "mapat", "table", "panel", "push", "trace", LEVEL}  # than the links that are kept
 
 
 def test_every_setting_is_in_a_link():

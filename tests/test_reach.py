@@ -51,10 +51,10 @@ def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(chromium, serv
     page.wait_for_function("__tippe.top3d.index == 0")
     page.locator("body").press("ArrowRight")
     page.wait_for_function("__tippe.top3d.index == 1")
-    said = page.get_by_role("status", name="What the top does now").filter(has_text="The top rolls all along")
+    said = page.get_by_role("status", name="How it rolls").filter(has_text="The top rolls all along")
     said.wait_for(state="attached")
     keys = page.get_by_role("dialog", name="Keys")
-    page.locator("body").press("?")
+    page.locator("body").press("F1")
     keys.get_by_text("play or pause").wait_for()
     check(page, "the keys")
     page.keyboard.press("Escape")
@@ -78,7 +78,7 @@ def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(chromium, serv
 
 def the_tour(page, width):
     """It covers nothing that it shows, and can be skipped."""
-    page.locator("body").press("?")
+    page.locator("body").press("F1")
     page.get_by_role("button", name="Take the tour").click()
     for i in range(1, 6):
         step = page.get_by_role("dialog").filter(has_text=f"{i} of 5")
@@ -96,7 +96,7 @@ def the_tour(page, width):
             page.get_by_role("button", name="Next", exact=True).click()
     page.keyboard.press("Escape")
     step.wait_for(state="hidden")
-    page.locator("body").press("?")
+    page.locator("body").press("F1")
     page.get_by_role("button", name="Take the tour").click()
     page.get_by_role("button", name="Skip").click()
     page.locator(".stop").wait_for(state="hidden")

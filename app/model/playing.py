@@ -13,6 +13,7 @@ class Playing(param.Parameterized):
     speed = param.Number(default=0.0, bounds=(0, None), doc="1 is that of the real top; 0: as fits its events")
     camera = param.List(default=[], doc="azimuth, height and distance of the chosen view; empty: the first one")
     show_track = param.Boolean(default=True)
+    show_trace = param.Boolean(default=True)
     show_com_path = param.Boolean(default=True)
     show_force = param.Boolean(default=True)
     show_cone = param.Boolean(default=True)
@@ -20,8 +21,8 @@ class Playing(param.Parameterized):
     show_momentum = param.Boolean(default=True)
     follow = param.Boolean(default=True, doc="whether the camera follows the top")
 
-    NAMES = ("time", "playing", "speed", "camera", "show_track", "show_com_path", "show_force", "show_cone",
-             "show_omega", "show_momentum", "follow")  # fmt: skip
+    NAMES = ("time", "playing", "speed", "camera", "show_track", "show_trace", "show_com_path", "show_force",
+             "show_cone", "show_omega", "show_momentum", "follow")  # fmt: skip
 
     @property
     def chosen(self) -> dict[str, object]:

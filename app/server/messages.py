@@ -122,7 +122,8 @@ ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, 
 SIZES = {name: NUMBER for name in ("inner_width", "inner_height", "outer_width", "outer_height")}
 RANGE = {"start": NUMBER | NONE, "end": NUMBER | NONE}
 ANGLE, SIZE = number(0, 4), number(-1e6, 1e6)  # rad; no input is larger
-SHOWN = ("show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow")
+SHOWN = ("show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum",
+         "follow")  # fmt: skip
 PICTURE = dict.fromkeys(SHOWN, FLAG) | {
     "time": SIZE, "playing": FLAG, "speed": number(0, 100), "tilted": row(ANGLE, SIZE, COUNT, or_none=True),
     "camera": row(NUMBER, NUMBER, NUMBER, or_none=True),

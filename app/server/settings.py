@@ -126,6 +126,7 @@ class Settings:
     votes_per_address: int = _setting(
         250, "votes in one room from one address; a whole class may share one", whole(1, 100_000)
     )
+    responsible: str = _setting("", "who answers for the page, and how to reach them: for its accessibility statement")
     secret: str = _setting("", "signs sessions; without it, a new one at each start")
     log: str = _setting("info", "how much is logged: debug, info, warning or error",
                         matching("debug|info|warning|error", "debug, info, warning or error"))  # fmt: skip

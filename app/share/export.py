@@ -18,6 +18,7 @@ UNITS = {
     "psi": ("turn about axis 3", "rad", None, ""),
     "quaternion": ("body to space, x y z w", "", None, ""),
     "contact": ("point of contact on the table, x y", "R", "R", "m"),
+    "trace": ("point of contact in the body's axes, from the centre O of the ball, x y z", "R", "R", "m"),
     "com": ("centre of mass G, x y z", "R", "R", "m"),
     "omega": ("angular velocity about 1', 2', 3", "(g/R)^1/2", "angular_velocity", "rad/s"),
     "force": ("of the table on the top, along x = 1', y = z cross 1', z", "Mg", "force", "N"),
@@ -66,7 +67,8 @@ def parameters(scene: Scene):
 def motion_table(scene):
     """{name: (n,) or (n, k) array} of the motion, in the units of UNITS."""
     motion = scene.trajectory
-    table = {name: getattr(motion, name) for name in ("t", "theta", "phi", "psi", "quaternion", "contact", "com")}
+    names = ("t", "theta", "phi", "psi", "quaternion", "contact", "trace", "com")
+    table = {name: getattr(motion, name) for name in names}
     return table | {
         "omega": motion.omega, "force": motion.force, "ratio": scene.ratio,
         "K_J": scene.K_J, "K_R": scene.K_R, "E": scene.E, "regime": scene.regime}  # fmt: skip

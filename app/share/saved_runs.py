@@ -21,6 +21,7 @@ UNITS = {
     "t": ("time", "s", "time"), "theta": ("angle of axis 3 with the vertical", "rad", None),
     "phi": ("azimuth of axis 1'", "rad", None), "psi": ("turn about axis 3", "rad", None),
     "contact": ("point of contact on the table, x y", "m", "R"), "com": ("centre of mass G, x y z", "m", "R"),
+    "trace": ("point of contact in the body's axes, from the centre O of the ball, x y z", "m", "R"),
     "quaternion": ("body to space, x y z w", "", None),
     "omega": ("angular velocity about 1', 2', 3", "rad/s", "angular_velocity"),
     "slip": ("velocity of the top's material at the contact, x y", "m/s", "velocity"),

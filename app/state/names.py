@@ -93,6 +93,7 @@ ROWS = (
     Name("slow", "Playing", "speed", OneOf(**SPEEDS), undoable=False),
     Name("view", "Playing", "camera", Numbers(3), undoable=False),
     Name("track", "Playing", "show_track", _SWITCH, undoable=False),
+    Name("trace", "Playing", "show_trace", _SWITCH, undoable=False),
     Name("G", "Playing", "show_com_path", _SWITCH, undoable=False),
     Name("F", "Playing", "show_force", _SWITCH, undoable=False),
     Name("cone", "Playing", "show_cone", _SWITCH, undoable=False),

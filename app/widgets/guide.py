@@ -1,23 +1,39 @@
-"""Keyboard and screen readers, and the tour of the rolling top."""
+"""Keyboard and screen readers, what is said of accessibility, and the tour of the rolling top."""
+
+import html
 
 import numpy as np
 import param
 
 from app.bundle import Bundled
-from app.text import say
+from app.text import listed, say
 from app.widgets.controls import worst
+
+RESPONSIBLE = {"who": ""}
+"""Who answers for this page, as its operator has set it."""
 
 
 class Guide(Bundled):
-    """The tour and the list of keys, which the head opens; the keys themselves; and a description of the motion, read
-    aloud."""
+    """The tour, the list of keys and the accessibility statement, which the head opens; the keys themselves; and a
+    description of the motion, read aloud."""
 
     tour = param.Boolean(default=True, doc="Whether the room of the tour is shown.")
     said = param.String(default="", doc="The present motion in plain words; for a hand at rest.")
-    seconds = param.Number(default=1.0, doc="Seconds of the real top in one unit of time.")
+
+    @classmethod
+    def says(cls, language=None):
+        return super().says(language) | {"statement": statement(language)}
 
     def show(self, scene):
-        self.tell(said=spoken(scene), seconds=scene.scales.time)
+        self.tell(said=spoken(scene))
+
+
+def statement(language=None):
+    """Of the page's accessibility: [(heading, paragraphs)], the first its title."""
+    told, who = listed("accessibility", language), RESPONSIBLE["who"]
+    said = say("accessibility.who", language, responsible=html.escape(who)) if who else told["nobody"]
+    return [(told["title"], [told["about"]]), *((part["heading"], part["said"]) for part in told["parts"]),
+            (told["contact"], [said, told["further"]])]  # fmt: skip
 
 
 def spoken(scene):

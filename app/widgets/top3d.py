@@ -67,6 +67,7 @@ class Top3D(Bundled):
     )
     speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is the real top's own speed.")
     show_track = param.Boolean(default=True, doc="The path of the contact point on the table.")
+    show_trace = param.Boolean(default=True, doc="The path of the contact point on the ball.")
     show_com_path = param.Boolean(default=True, doc="G and its path.")
     show_force = param.Boolean(default=True, doc="The table's force on the top.")
     show_cone = param.Boolean(default=True, doc="The friction cone at the contact.")

@@ -24,12 +24,16 @@ test("words that would overlap are pushed apart, and stay within the picture", (
   assert.ok(b - a >= 15 && c <= 100 && c - b >= 15);
 });
 
-test("keys control the class only while presenting, and never with Ctrl", () => {
-  const press = (key, presenting, more = {}) => wishOf({ key, ctrlKey: false, metaKey: false, altKey: false, ...more }, presenting);
-  assert.deepEqual(["p", "P", "r", "ArrowRight"].map((key) => press(key, false)), ["present", "present", "", ""]);
-  assert.deepEqual(["ArrowLeft", "ArrowRight", " ", "r", "0", "Escape", "p", "x"].map((key) => press(key, true)),
-    ["back", "on", "play", "reveal", "reset", "leave", "leave", ""]);
-  assert.equal(press("r", true, { ctrlKey: true }), "");
+test("keys control the class only while presenting, letters only with Alt, and none with Ctrl", () => {
+  const press = (key, presenting, more = {}) => wishOf(/** @type {any} */ ({ key, code: "", ctrlKey: false, metaKey: false, altKey: false, ...more }), presenting);
+  const alt = (code, presenting, more = {}) => press("x", presenting, { code, altKey: true, ...more });
+  assert.deepEqual(["KeyP", "KeyR", "Digit0"].map((code) => alt(code, false)), ["present", "", ""]);
+  assert.deepEqual(["KeyP", "KeyR", "Digit0", "KeyX"].map((code) => alt(code, true)), ["leave", "reveal", "reset", ""]);
+  assert.deepEqual(["ArrowLeft", "ArrowRight", " ", "Escape"].map((key) => press(key, true)), ["back", "on", "play", "leave"]);
+  for (const presenting of [true, false]) {
+    for (const key of "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789?,.") assert.equal(press(key, presenting), "");
+    for (const code of ["KeyP", "KeyR"]) assert.equal(alt(code, presenting, { ctrlKey: true }), "", "VoiceOver's");
+  }
 });
 
 test("an arrow is as long as the rotation is fast, counterclockwise if positive, and absent at rest", () => {

@@ -94,7 +94,8 @@ class Trajectory:
     sum, and contact and slip are means weighted by the normal forces. In the air slip and force are 0, and contact is
     the point of the table below O.
 
-    jellett, routh, energy, L_3, L_z (n,) and ledger are computed from the arrays above, not from the initial values.
+    trace (n, 3), jellett, routh, energy, L_3, L_z (n,) and ledger are computed from the arrays above, not from the
+    initial values.
     """
 
     top: Top
@@ -167,6 +168,16 @@ class Trajectory:
     def time_90(self) -> float:
         """When theta first passes 90 degrees; nan if it never does."""
         return next((t for t, name in self.notes if name == PASSES_90), np.nan)
+
+    @cached_property
+    def trace(self) -> Array:
+        """R^T (contact - G) - a 3, R of the quaternion: the contact in the body's axes, from O, (n, 3).
+
+        The mark that carbon paper on the table would leave on the body; on the ball it has length 1.
+        """
+        q, w = self.quaternion[:, :3], self.quaternion[:, 3:]
+        arm = np.column_stack([self.contact, np.zeros(len(self.t))]) - self.com
+        return arm + 2 * np.cross(q, np.cross(q, arm) - w * arm) - (0, 0, self.top.a)
 
     @cached_property
     def jellett(self) -> Array:

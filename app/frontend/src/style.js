@@ -100,7 +100,7 @@ button:focus-visible { outline: 2px solid currentColor; outline-offset: 2px; } h
 dialog, .stop { color: var(--ink, #22303c); background: var(--card, #fff); border: 1px solid var(--edge, #7b8794); border-radius: 10px; padding: 14px 18px;
   box-shadow: 0 6px 24px #0006; box-sizing: border-box; max-width: min(560px, calc(100vw - 28px)); }
 dialog::backdrop { background: #0008; }
-h2 { font-size: 1.1em; margin: 0 0 6px; outline-offset: 4px; }
+h2 { font-size: 1.1em; margin: 0 0 6px; outline-offset: 4px; } h3 { font-size: 1em; margin: 14px 0 4px; }
 table { border-collapse: collapse; margin: 0 0 12px; } th, td { text-align: left; padding: 4px 14px 4px 0; vertical-align: top; font-weight: normal; } th { font-weight: 600; }
 .stop { position: fixed; z-index: 3000; width: min(320px, calc(100vw - 28px)); } .stop p { margin: 0 0 10px; }
 .stop div { display: flex; align-items: center; gap: 8px; } .stop .count { flex: 1; color: var(--faint, #5b6875); }

@@ -69,7 +69,7 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   measured?: Bytes;
   measured_label?: string;
 }
-type Part3D = "show_track" | "show_com_path" | "show_force" | "show_cone" | "show_omega" | "show_momentum" | "follow";
+type Part3D = "show_track" | "show_trace" | "show_com_path" | "show_force" | "show_cone" | "show_omega" | "show_momentum" | "follow";
 
 interface SurfaceModel extends Model {
   K_J: Bytes;
@@ -172,7 +172,6 @@ interface TopsMapModel extends Model {
 interface GuideModel extends Model {
   tour: boolean;
   said: string;
-  seconds: number;
 }
 
 interface HeadModel extends Model {

@@ -23,7 +23,7 @@ from app.state import asked
 from app.state.codecs import Pushes
 from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
-from app.tabs.lab.words import is_caught, notes
+from app.tabs.lab.words import carried_words, is_caught, notes, trace_words
 from app.text import listed, say, speaking, spoken
 from app.widgets.controls import valid
 from app.widgets.failure import after
@@ -314,7 +314,8 @@ class LabTab:
     def _run(scene, table):
         """The run on a table in words; None if the table is not watched."""
         if table in scene.refused:
-            return {"events": [], "stages": [], "caption": "", "why": spelled(scene.refused[table]), "jellett": ""}
+            return {"events": [], "stages": [], "caption": "", "why": spelled(scene.refused[table]), "jellett": "",
+                    "trace": "", "carried": []}  # fmt: skip
         if table not in scene.stories:
             return None
         story = scene.stories[table]
@@ -324,4 +325,6 @@ class LabTab:
             "caption": spelled(story.caption),
             "why": "",
             "jellett": LabTab._jellett(scene) if table == "ordinary" else "",
+            "carried": [[t, spelled(word)] for t, word in carried_words(scene.motions[table])],
+            "trace": spelled(trace_words(scene.motions[table].trajectory)),
         }

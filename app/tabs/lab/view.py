@@ -52,6 +52,7 @@ class LabView(Bundled):
     speed = param.Number(default=0.0, bounds=(0, None), doc="1 is the real top's own speed; 0: as fits its events.")
     camera = param.List(default=[], doc="As of a Top3D; empty: the first view.")
     show_track = param.Boolean(default=True, doc='At the level "Research": as of a Top3D, like all below.')
+    show_trace = param.Boolean(default=True)
     show_com_path = param.Boolean(default=True)
     show_force = param.Boolean(default=True)
     show_cone = param.Boolean(default=True)

@@ -4,6 +4,8 @@ import html
 
 import numpy as np
 
+from app.model.lab.moments import SHORT
+from app.model.lab.traced import turns_back
 from app.model.motion import RTOL, THROWN
 from app.model.pushes import push_words
 from app.model.setup import TABLES
@@ -44,6 +46,24 @@ def part(settings):
 
 def happens(event, settings):
     return say(f"planes.events.{event}", part=part(settings))
+
+
+def trace_words(moved):
+    """Which way the trace on the ball runs, and where it turns back; "" if it does not."""
+    back = turns_back(moved)
+    if back is None:
+        return ""
+    return say("lab.trace.with" if back.runs_with else "lab.trace.against", tilt=np.degrees(back.theta))
+
+
+def carried_words(motion):
+    """What carries it: [[from which time (s), words]], without what cannot be seen."""
+    unit, found = motion.start.scales.time, []
+    for each in motion.ending.stretches if motion.ending else ():
+        word = say(f"planes.spells.on.{each.on}", part=part(motion.start))
+        if (each.end - each.start) * unit > SHORT and (not found or found[-1][1] != word):
+            found.append([each.start * unit, word])
+    return found or [[0.0, say("planes.spells.on.ball")]]
 
 
 # ---- how the motion ended ----

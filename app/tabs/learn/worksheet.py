@@ -12,8 +12,8 @@ STYLE = (
     " background: #fff; max-width: 182mm; margin: 0 auto; padding: 0 } h1 { font-size: 17pt; margin: 0 }"
     " h2 { font-size: 12pt; margin: 4mm 0 1mm }"
     " header { display: flex; justify-content: space-between; align-items: baseline } p { margin: 1mm 0 }"
-    " section { break-inside: avoid; margin-top: 3mm } .line { display: flex; gap: 3mm; margin-top: 3mm }"
-    " .line span { border-bottom: 0.3mm solid #555; flex: 1 } .box { border: 0.3mm solid #555; height: 34mm }"
+    " section { break-inside: avoid; margin-top: 2.5mm } .line { display: flex; gap: 3mm; margin-top: 2.5mm }"
+    " .line span { border-bottom: 0.3mm solid #555; flex: 1 } .box { border: 0.3mm solid #555; height: 28mm }"
     " .box svg { display: block; height: 100%; margin: 0 auto }"
 )
 LEANS = 25  # degrees, in the drawing

@@ -41,7 +41,7 @@ select option { color: var(--ink); background: var(--ground); }
 .seg { display: inline-flex; gap: 2px; }
 .seg button { min-height: calc(var(--touch) - 4px); padding: 0 12px; border-radius: 5px; color: var(--ink-2); white-space: nowrap; }
 .seg [aria-checked=true] { background: var(--ground); color: var(--accent); font-weight: 600; box-shadow: 0 0 0 1.5px var(--accent); }
-.mini { display: flex; gap: 16px; align-items: baseline; }
+.mini { display: flex; gap: 12px; align-items: baseline; }
 .mini button { padding: 0; min-height: max(28px, var(--touch) - 4px); min-width: 28px; color: var(--ink-2); }
 .mini [aria-selected=true] { color: var(--accent); font-weight: 600; box-shadow: 0 2px 0 var(--accent); border-radius: 0; }
 svg { display: block; overflow: visible; }

@@ -1,11 +1,12 @@
 // Shows one picture at a time; each answers a question about the run: where the height comes from, which way the top
-// turns, where it touches the table.
+// turns, where it touches the table, and the ball.
+import { caps } from "./caps.js";
 import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
 import { lineOf } from "./numbers.js";
 import { Choice, drawn, part, say } from "./parts.js";
 import { Frames } from "../motion/frames.js";
 
-const NAMES = ["energy", "spin", "path"];
+const NAMES = ["energy", "spin", "path", "trace"];
 const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // shown at the pointer; names of numbers.js
 const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
 const ROOM = 30, LINE = 24; // px: the room that words need in a picture; a line of text between two curves
@@ -14,8 +15,9 @@ const NAMED = [0.3, 0.15, 0.45, 0.6, 0.75, 0.02]; // fractions of the earlier ru
 const JUMP = 0.5; // R: the contact moves this far between two frames only if another part of the top touches down
 
 export class Answer {
-  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
-  constructor(texts, time) {
+  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {() => void} chosen another picture is shown */
+  constructor(texts, time, chosen) {
+    this.chosen = chosen;
     this.texts = texts;
     this.time = time;
     this.width = this.height = this.bottom = 0; // px; not known yet
@@ -89,6 +91,7 @@ export class Answer {
   look(name) {
     this.name = name;
     this.draw();
+    this.chosen();
   }
 
   show(scene) {
@@ -113,7 +116,7 @@ export class Answer {
     this.drawing.setAttribute("aria-label", said.note);
     if (!width || !scene) return;
     this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note,
-      ...(this.before ? [texts.note_then] : []));
+      ...(this.before && name !== "trace" ? [texts.note_then] : []), name === "trace" && scene.run?.trace ? ` ${scene.run.trace}` : "");
     Object.assign(this, { width, height, bottom: height - FOOT });
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
     this.moves = [];
@@ -275,6 +278,13 @@ export class Answer {
       drawn("path", { class: "axis", d: `M${RIGHT} ${foot - 5}v5h${bar}v-5` }),
       drawn("text", { x: RIGHT + bar + 8, y: foot + 2 }, say(texts, "{mm} mm", { mm: [mm, mm < 1 ? 1 : 0] })),
     ];
+  }
+
+  trace() {
+    const { scene, texts, width, height } = this, name = scene.table === "three" ? "ordinary" : scene.table;
+    const { lines, move } = caps(texts, { bytes: scene.frames[name], a: scene.a, unit: scene.unit, width, height });
+    this.moves.push(move);
+    return lines;
   }
 
   /** @param {number} t */

@@ -9,6 +9,7 @@ import { Flicking } from "./flick.js";
 import { Keeps } from "./keeps.js";
 import { Numbers } from "./numbers.js";
 import { part } from "./parts.js";
+import { Sound } from "./sound.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
@@ -38,13 +39,14 @@ export class Lab {
     this.asking = new Asking((...asked) => (model.asked = asked));
     this.press = new Press();
     const ask = (name, value) => this.ask(name, value);
+    this.sound = new Sound();
     this.before = new Before(texts);
     this.time.chose = (speed) => (model.speed = speed);
     this.flick = new Flicking(this);
     this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), flick: this.flick, camera: model.camera, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
     this.words = new Words(texts, ask, () => this.goBack());
-    this.answer = new Answer(texts, this.time);
+    this.answer = new Answer(texts, this.time, () => this.showLevel());
     this.keeps = new Keeps(texts);
     this.numbers = new Numbers(texts);
     this.controls = new Controls(texts, ask, () => this.anewSpin());
@@ -111,7 +113,7 @@ export class Lab {
     const { model, element, stage, time } = this, isOpen = model.level === "research";
     element.dataset.level = model.level;
     time.chosen = model.speed;
-    stage.dress(model, isOpen);
+    stage.dress(model, isOpen, this.answer.name === "trace");
     this.show();
   };
 
@@ -170,6 +172,7 @@ export class Lab {
     this.element.dataset.table = scene.table;
     scene.bytes = model.profile;
     this.stage.show(scene);
+    this.sound.show(scene);
     for (const shown of [this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.show(scene);
     this.controls.show(scene, this.asking.isAhead);
     if (!this.isBegun && scene.end) this.begin();
@@ -203,6 +206,7 @@ export class Lab {
   at() {
     if (!this.scene) return;
     if (this.isTold) this.tell();
+    this.sound.at(this.time.t, this.time.playing && !this.time.held);
     for (const shown of [this.stage, this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.at(this.time.t);
   }
 
@@ -211,7 +215,7 @@ export class Lab {
     this.show.cancel();
     this.tell.cancel();
     window.removeEventListener("tippe:command", this.tells);
-    for (const gone of [this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
+    for (const gone of [this.sound, this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
     this.unfollow();
   }
 }

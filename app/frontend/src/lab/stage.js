@@ -3,6 +3,7 @@
 import { thenAt } from "./before.js";
 import { latest, TABLES, TILT, TURNING } from "./curves.js";
 import { Choice, drawn, part, say } from "./parts.js";
+import { Told } from "./told.js";
 import { SPEEDS } from "./time.js";
 import { ARROWS, NOTHING, SHOWS, Top } from "./top.js";
 
@@ -48,16 +49,18 @@ export class Stage {
       return label;
     }), part("button", { type: "button", onclick: () => this.alone.firstView() }, texts.view)));
     this.missing = part("p", { class: "missing", role: "status" });
+    this.told = new Told(texts, time);
     this.element = part("section", { class: "stage", "aria-label": texts.stage },
       part("div", { class: "tops" }, ...this.places), this.ring,
       part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),
-      this.pill, this.chip, this.menu, this.missing);
+      this.pill, this.chip, this.menu, this.missing, this.told.element);
   }
 
-  // Shows what of a motion is to be shown, and the chosen view; nothing but the top unless all of it is open.
-  /** @param {LabModel} model @param {boolean} isOpen */
-  dress(model, isOpen) {
-    const shown = isOpen ? Object.fromEntries(SHOWS.map((name) => [name, model[name]])) : NOTHING;
+  // Shows what of a motion is to be shown, and the chosen view; nothing but the top unless all of it is open, and the
+  // trace on the ball beside its map.
+  /** @param {LabModel} model @param {boolean} isOpen @param {boolean} isMapped */
+  dress(model, isOpen, isMapped) {
+    const shown = isOpen ? Object.fromEntries(SHOWS.map((name) => [name, model[name]])) : { ...NOTHING, show_trace: isMapped };
     for (const top of this.tops) {
       top.put(shown);
       top.element.toggleAttribute("data-arrows", ARROWS.some((name) => shown[name]));
@@ -74,6 +77,7 @@ export class Stage {
     const { state, texts, table } = scene, three = table === "three";
     this.scene = scene;
     this.choice.show(table);
+    this.told.show(scene);
     const { bytes: profile, a, unit: seconds, before } = scene;
     this.tops.forEach((top, i) => {
       const shown = three === i > 0;
@@ -108,6 +112,7 @@ export class Stage {
   /** @param {number} t */
   at(t) {
     this.beforeAt(t);
+    this.told.at(t);
     const { scene, texts } = this, three = scene.table === "three";
     const curves = scene.curves[three ? "ordinary" : scene.table], run = scene.runs[three ? "ordinary" : scene.table];
     this.pill.hidden = three || !curves.count;
@@ -129,6 +134,7 @@ export class Stage {
   }
 
   leave() {
+    this.told.leave();
     for (const top of this.tops) top.leave();
   }
 }

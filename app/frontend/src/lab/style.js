@@ -67,6 +67,8 @@ const stage = `
 .ring span { font-size: var(--t-s); text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
 .caption { position: absolute; left: 0; right: 0; bottom: 20px; text-align: center; color: var(--scene-faint, #4a5563); padding: 0 8px; pointer-events: none; }
 .caption b, .caption .does { color: var(--scene-ink, #1d2733); }
+
+.unseen { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 .missing { position: absolute; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
 @container (max-width: 700px) {
   .on { left: 8px; right: 8px; top: 8px; gap: 4px; } .switch > b { display: none; } .seg button { padding: 0 9px; min-height: 44px; }
@@ -128,7 +130,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 10
 .half { font-size: var(--t-s); color: var(--ink-2); } th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
 thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
 .kept { white-space: nowrap; margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
-@container (max-width: 700px) { .lab > .answer .plot { flex: none; height: 240px; } .large { padding: 16px; width: 100vw; height: 100vh; border-radius: 0; } .large .titled { flex-wrap: wrap; } .mini button { min-height: 44px; min-width: 44px; } }
+@container (max-width: 700px) { .lab > .answer .plot { flex: none; height: 240px; } .large { padding: 16px; width: 100vw; height: 100vh; border-radius: 0; } :is(.lab > .answer, .large) .titled { flex-wrap: wrap; } .lab > .answer h2 { flex-basis: 100%; } .mini button { min-height: 44px; min-width: 44px; } }
 `;
 
 const controls = `

@@ -7,7 +7,7 @@ const OURS = ".tippe :is(.bar, .verdict, .time) { display: none } :host(:not([da
   ".tippe .scales { left: auto; right: 16px; top: 16px } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 } @container (max-width: 700px) { .tippe .scales { display: none } }";
 
 // What is shown of a motion besides the top itself.
-export const SHOWS = ["show_force", "show_omega", "show_momentum", "show_com_path", "show_track", "show_cone", "follow"];
+export const SHOWS = ["show_force", "show_omega", "show_momentum", "show_com_path", "show_track", "show_trace", "show_cone", "follow"];
 export const ARROWS = ["show_force", "show_omega", "show_momentum"];
 export const NOTHING = { ...Object.fromEntries(SHOWS.map((name) => [name, false])), follow: true };
 

@@ -3,16 +3,16 @@
 import { part, say } from "../lab/parts.js";
 
 const LETTERS = "ABCDEFGH";
-const KEYS = [["←", "back"], ["→", "on"], ["Space", "play"], ["R", "reveal"], ["0", "reset"], ["Esc", "leave"]];
+const KEYS = [["←", "back"], ["→", "on"], ["Space", "play"], ["Alt+R", "reveal"], ["Alt+0", "reset"], ["Esc", "leave"]];
 
 // What a key does; "" for nothing.
 /** @param {KeyboardEvent} event @param {boolean} presenting */
 export function wishOf(event, presenting) {
-  const { key, ctrlKey, metaKey, altKey } = event;
-  if (ctrlKey || metaKey || altKey) return "";
-  if (!presenting) return key.toLowerCase() === "p" ? "present" : "";
-  const known = { ArrowLeft: "back", ArrowRight: "on", " ": "play", r: "reveal", R: "reveal", 0: "reset", Escape: "leave", p: "leave", P: "leave" };
-  return known[key] ?? "";
+  const { key, code, ctrlKey, metaKey, altKey } = event, isAlone = !ctrlKey && !metaKey;
+  // not a letter alone: screen readers go to links and paragraphs by letters
+  const letter = altKey && isAlone ? { KeyP: presenting ? "leave" : "present", ...(presenting ? { KeyR: "reveal", Digit0: "reset" } : {}) }[code] : "";
+  if (letter || !presenting || altKey || !isAlone) return letter || "";
+  return { ArrowLeft: "back", ArrowRight: "on", " ": "play", Escape: "leave" }[key] ?? "";
 }
 
 // Whether a person is typing, so that a letter is not a command.

@@ -13,7 +13,7 @@ const PUSH = 0.4, KEY_PUSH = 0.25; // M (gR)^1/2: for a flick that is as long as
 const TURNS = 30; // rev/s for one as long as R
 const STILL = 0.02; // (g/R)^1/2: with less it is at rest
 const UPRIGHT = 1e-4; // below this sine of the tilt, 1' is where Python has it at a pole
-const KEYS = { w: [0, 1], a: [-1, 0], s: [0, -1], d: [1, 0] }; // to the right, and away
+const KEYS = { ArrowUp: [0, 1], ArrowLeft: [-1, 0], ArrowDown: [0, -1], ArrowRight: [1, 0] }; // to the right, and away
 const up = new Vector3(0, 0, 1);
 
 // A vector in space along the axes that turn with the top: 1', and the one that with it and `third` is right-handed.
@@ -152,9 +152,10 @@ export class Flick {
 
   /** @param {KeyboardEvent} event */
   key(event) {
-    const way = KEYS[event.key.toLowerCase()], { stage: { camera }, scene: { body }, vector } = this;
+    const way = event.ctrlKey && event.shiftKey && KEYS[event.key], { stage: { camera }, scene: { body }, vector } = this;
     if (event.key === "Escape" && this.from) this.cancel();
-    if (!way || event.ctrlKey || event.metaKey || event.altKey || this.from || !body.visible || event.repeat) return;
+    if (!way || event.metaKey || event.altKey || this.from || !body.visible || event.repeat) return;
+    event.preventDefault();
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).setZ(0).normalize(), away = up.clone().cross(right);
     vector.set(0, 0, 0).addScaledVector(right, way[0]).addScaledVector(away, way[1]).multiplyScalar(KEY_PUSH);
     this.point.copy(this.axis).multiplyScalar(((body.top ?? 1) - 1) / 2).add(body.position);

@@ -117,7 +117,7 @@ export class Stage {
     const { camera, controls } = this, { x, y, z } = camera.position.clone().sub(controls.target);
     const turn = event.shiftKey && { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
     const zoom = { "+": 1 / KEY_ZOOM, "=": 1 / KEY_ZOOM, "-": KEY_ZOOM }[event.key];
-    if (!turn && !zoom) return;
+    if ((!turn && !zoom) || event.ctrlKey || event.altKey || event.metaKey) return; // the browser's own zoom, and screen readers'
     event.preventDefault();
     event.stopPropagation();
     const [across, down] = turn || [0, 0], far = Math.hypot(x, y, z) * (zoom ?? 1);

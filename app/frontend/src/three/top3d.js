@@ -17,7 +17,7 @@ import { TopScene } from "./top_scene.js";
 /** @import { Stage } from "./stage.js" */
 
 // Each is redrawn only when it changes.
-const REDRAWN = ["mu_s", "seconds", "show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"];
+const REDRAWN = ["mu_s", "seconds", "show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"];
 
 class Top {
   /** @param {TopModel} model @param {Stage} stage @param {{ root: HTMLElement, picture: HTMLElement, label: string }} frame */

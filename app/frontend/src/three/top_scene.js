@@ -9,6 +9,7 @@ import { centreOf, emptyPose } from "../motion/frames.js";
 import { Labels } from "./labels.js";
 import { Ribbon, Thread } from "./ribbon.js";
 import { followLook } from "./scene.js";
+import { TraceLine } from "./trace.js";
 import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
 /** @import { Stage } from "./stage.js" */
 /** @import { Frames } from "../motion/frames.js" */
@@ -80,6 +81,8 @@ export class TopScene {
       passed: new Ribbon(0.045, { color: colours.theta, opacity: 0.95 }),
     };
     this.comPath = { whole: new Thread({ opacity: 0.3 }), passed: new Thread({ opacity: 0.9 }) };
+    this.trace = new TraceLine();
+    this.body.add(this.trace);
     scene.add(...Object.values(this.track), ...Object.values(this.comPath));
 
     // Arrows, the friction cone, and the markers of C and G.
@@ -127,6 +130,7 @@ export class TopScene {
   /** @param {Frames} frames */
   setFrames(frames) {
     for (const name of Object.keys(LONGEST)) this.scales[name] = 1 / niceAbove(frames.scales[name] / LONGEST[name]);
+    this.trace.forget();
     for (const line of Object.values(this.track)) line.setPath(frames.count, (i) => frames.contact(i), ABOVE_TABLE);
     for (const line of Object.values(this.comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
   }
@@ -151,6 +155,7 @@ export class TopScene {
     this.showCone(some && model.show_cone, model.mu_s);
     const passed = Math.ceil(at);
     this.showPath(this.track, model.show_track, passed, frames.count);
+    this.trace.showTo(frames, model.a, at, model.show_trace);
     this.showPath(this.comPath, model.show_com_path, passed, frames.count);
   }
 

@@ -15,7 +15,7 @@ const speeds = [1, 2, 4, 8, 16, 32, 64];
 
 // What can be shown or hidden: the name of the parameter, and the colour of its button.
 const shows = {
-  show_track: colours.theta, show_com_path: "var(--scene-ink, #1d2733)", show_force: colours.normal, show_cone: colours.friction,
+  show_track: colours.theta, show_trace: colours.theta, show_com_path: "var(--scene-ink, #1d2733)", show_force: colours.normal, show_cone: colours.friction,
   show_omega: colours.omega, show_momentum: colours.momentum, follow: "#7a8694",
 };
 

@@ -1,20 +1,22 @@
 // The page by keyboard and screen reader: keys for the clock, the list of keys, what the top does in words, and the
 // tour.
-import { fill, local } from "../data.js";
 import { find } from "./finding.js";
 import { guideStyle } from "../style.js";
 import { Tour, tourFrame } from "./tour.js";
 
 const SAY_MS = 400; // words are spoken once they have not changed for this long
 const WRITING = "input, textarea, select, button, a[href], summary, [contenteditable=true], [role=slider], [role=tab], [role=option]";
-const TYPING = "input:not([type=range], [type=checkbox]), textarea, [contenteditable=true]";
 const KEYS = { " ": { toggle: true }, ArrowLeft: { step: -1 }, ArrowRight: { step: 1 } };
 
 const listOf = (texts) => `<dialog class="list" aria-labelledby="title"><h2 id="title">${texts.keys}</h2>
   <table>${texts.list.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
   <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>`;
 
-// For screen readers: what the rolling top is doing, while it is shown. The Lab has its own words.
+const statementOf = ({ statement: [[title, about], ...parts], close }) => `<dialog class="statement" aria-labelledby="statement"><h2 id="statement" tabindex="-1" autofocus>${title}</h2>
+  ${paragraphs(about)}${parts.map(([heading, said]) => `<h3>${heading}</h3>${paragraphs(said)}`).join("")}<button class="close">${close}</button></dialog>`;
+const paragraphs = (said) => said.map((words) => `<p>${words}</p>`).join("");
+
+// For screen readers: how the top rolls, while its constants are shown. The stage of the Lab says what it does there.
 /** @param {GuideModel} model @param {AbortSignal} signal */
 function speak(model, signal) {
   const { texts } = model, live = document.createElement("div");
@@ -23,51 +25,39 @@ function speak(model, signal) {
   live.setAttribute("aria-label", texts.now);
   live.style.cssText = "position: absolute; top: 0; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap";
   (find("[role=main], main") ?? document.body).append(live);
-  let later, playing;
-  const say = (words) => {
+  let later;
+  const say = () => {
     clearTimeout(later);
     later = setTimeout(() => {
-      const heard = model.tour ? words : "";
+      const heard = model.tour ? model.said : "";
       if (live.textContent !== heard) live.textContent = heard;
     }, SAY_MS);
   };
-  const now = () => fill(playing ? texts.playing : texts.paused, { said: model.said });
-  const onClock = ({ detail }) => {
-    const changed = playing !== undefined && playing !== detail.playing;
-    playing = detail.playing;
-    if (changed) say(now());
-    else if (!playing) {
-      const seconds = local((detail.t * model.seconds).toFixed(4));
-      say(fill(texts.instant, { seconds, verdict: detail.verdict, said: model.said }));
-    }
-  };
-  window.addEventListener("tippe:clock:lab", onClock, { signal });
-  model.on("said", () => say(now()));
-  model.on("tour", () => say("")); // clears what was said in another room
+  for (const name of ["said", "tour"]) model.on(name, say);
+  say();
   signal.addEventListener("abort", () => {
     clearTimeout(later);
     live.remove();
   });
 }
 
-/** @param {any} list the dialog @param {Tour} tour @param {AbortSignal} signal @returns {(event: Event) => void} opens the list */
-function listen(list, tour, signal) {
-  const openList = (event) => {
-    event.preventDefault();
-    if (!list.open) list.showModal();
-  };
+/** @param {HTMLDialogElement[]} dialogs the first lists the keys @param {Tour} tour @param {AbortSignal} signal */
+function listen(dialogs, tour, signal) {
   const onKey = (/** @type {KeyboardEvent} */ event) => {
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
-    const target = /** @type {Element} */ (event.composedPath()[0]);
-    if (event.key === "?" && !target.matches?.(TYPING)) return openList(event);
+    const target = /** @type {Element} */ (event.composedPath()[0]), isOpen = dialogs.some(({ open }) => open);
+    if (event.key === "F1") {
+      event.preventDefault();
+      if (!isOpen) dialogs[0].showModal();
+      return;
+    }
     if (event.key === "Escape" && tour.isOn) return tour.end();
     const detail = KEYS[event.key];
-    if (target.matches?.(WRITING) || list.open || !detail) return;
+    if (target.matches?.(WRITING) || isOpen || !detail) return;
     event.preventDefault();
     window.dispatchEvent(new CustomEvent("tippe:command", { detail }));
   };
   window.addEventListener("keydown", onKey, { signal });
-  return openList;
 }
 
 /** @param {Pick<Rendering<GuideModel>, "model">} rendering */
@@ -75,24 +65,24 @@ export function renderGuide({ model }) {
   const { texts } = model, listening = new AbortController(), { signal } = listening;
   const layer = document.createElement("div"); // over the page, outside all its parts
   const over = layer.attachShadow({ mode: "open" });
-  over.innerHTML = `<style>${guideStyle}</style>${listOf(texts)}${tourFrame(texts)}`;
+  over.innerHTML = `<style>${guideStyle}</style>${listOf(texts)}${statementOf(/** @type {any} */ (texts))}${tourFrame(texts)}`;
   speak(model, signal);
   document.body.append(layer);
   const tour = new Tour(texts, over, signal);
   /** @type {(root: ParentNode, selector: string) => any} */
   const part = (root, selector) => root.querySelector(selector);
-  const list = part(over, ".list");
-  const openList = listen(list, tour, signal), ask = (/** @type {any} */ event) => {
-    if (event.detail === "tour") tour.begin(document.activeElement);
-    else openList(event);
-  };
+  const dialogs = { keys: part(over, ".list"), statement: part(over, ".statement") };
+  listen(Object.values(dialogs), tour, signal);
+  const ask = (/** @type {any} */ { detail }) => (detail === "tour" ? tour.begin(document.activeElement) : dialogs[detail].showModal());
   window.addEventListener("tippe:guide", ask, { signal });
-  part(over, ".close").onclick = () => list.close();
+  for (const dialog of Object.values(dialogs)) {
+    part(dialog, ".close").onclick = () => dialog.close();
+    dialog.onclick = (event) => event.target === dialog && dialog.close();
+  }
   part(over, ".again").onclick = () => {
-    list.close();
+    dialogs.keys.close();
     tour.begin(document.activeElement);
   };
-  list.onclick = (event) => event.target === list && list.close();
   const offer = () => {
     part(over, ".again").hidden = !model.tour;
     if (!model.tour && tour.isOn) tour.end();

@@ -1,6 +1,7 @@
 // The row at the top of the page: the top, the tabs, the level, undo, redo, Share, and a menu with everything else.
 import { ask } from "../data.js";
 import { Choice, part } from "./parts.js";
+import { listening } from "../motion/heard.js";
 import { headStyle } from "./head_style.js";
 
 // A choice among options that may change: its buttons are created again when their words change.
@@ -60,6 +61,7 @@ class Head {
       const box = part("input", { type: "checkbox", role: "switch", onchange: () => this.ask(name, box.checked) });
       return { name, box, element: part("label", {}, box, texts[name]) };
     });
+    const sound = part("input", { type: "checkbox", role: "switch", onchange: () => (listening.on = sound.checked) });
     const guide = (what) => part("button", { type: "button", onclick: () => {
       this.open(false);
       window.dispatchEvent(new CustomEvent("tippe:guide", { detail: what }));
@@ -67,7 +69,7 @@ class Head {
     this.tour = guide("tour");
     return part("div", { class: "menu", role: "group", "aria-label": texts.more, hidden: true },
       part("div", { class: "narrow" }, this.levels[1].element, part("span", {}, ...this.steps[1], this.shares[1])),
-      this.languages.element, ...this.switches.map(({ element }) => element), this.tour, guide("keys"));
+      this.languages.element, ...this.switches.map(({ element }) => element), part("label", {}, sound, texts.sound), this.tour, guide("keys"), guide("statement"));
   }
 
   /** @param {boolean} whether */
@@ -160,10 +162,10 @@ class Head {
 
 /** @param {Rendering<HeadModel>} rendering */
 export function renderHead({ model, el, view }) {
-  const head = new Head({ model, el, view }), listening = new AbortController(), { signal } = listening;
+  const head = new Head({ model, el, view }), leaving = new AbortController(), { signal } = leaving;
   model.on("state", () => head.show());
   head.show();
   for (const type of ["pointerdown", "keydown"]) window.addEventListener(type, head.leave, { signal, capture: true });
   window.addEventListener("tippe:look", head.look, { signal });
-  model.on("remove", () => listening.abort());
+  model.on("remove", () => leaving.abort());
 }

@@ -1,0 +1,52 @@
+// The stage in words, for those who do not see it: how far each top leans, what carries it, and how it turns.
+import { latest, SPIN, TABLES, TILT, TURNING } from "./curves.js";
+import { part, say } from "./parts.js";
+
+const SAY_MS = 400; // said once nothing new has happened for this long
+const STILL = 0.05; // turns a second that are not worth a word
+
+// A top at a time.
+/** @param {Record<string, any>} texts @param {{ curves: import("./curves.js").Curves, run: any }} of @param {number} t in s */
+export function inWords(texts, { curves, run }, t) {
+  const { leans, turns, rate, still, ways } = texts.told, [, on] = latest(run.carried, t);
+  const [above, own] = [TURNING, SPIN].map((column) => {
+    const turning = curves.at(t, column), most = Math.abs(turning);
+    return most < STILL ? still : say(texts, rate, { turns: [most, most < 9.95 ? 1 : 0], way: ways[Number(turning < 0)] });
+  });
+  return `${say(texts, leans, { tilt: [curves.at(t, TILT), 0], on })} ${say(texts, turns, { above, own })}`;
+}
+
+export class Told {
+  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
+  constructor(texts, time) {
+    this.texts = texts;
+    this.time = time;
+    /** @type {any[]} */
+    this.tops = []; // those that are shown
+    this.heard = ""; // when it was said, or what was happening
+    this.element = part("p", { class: "unseen", role: "status", "aria-label": texts.told.label });
+  }
+
+  show(scene) {
+    this.tops = (scene.table === "three" ? TABLES : [scene.table]).flatMap((name) => (
+      scene.curves[name].count && scene.runs[name] ? [{ curves: scene.curves[name], run: scene.runs[name], name: scene.table === "three" ? `${this.texts.tables[name]}: ` : "" }] : []));
+    this.heard = "";
+  }
+
+  // While it plays, it is said when the story comes to another part or something else carries the top; otherwise always.
+  /** @param {number} t in s */
+  at(t) {
+    const { time } = this, now = this.tops.map(({ run }) => [latest(run.stages, t)?.[0], latest(run.carried, t)[0]]);
+    const heard = time.playing ? JSON.stringify(now) : String(t);
+    if (heard === this.heard || time.held) return;
+    this.heard = heard;
+    clearTimeout(this.later);
+    this.later = setTimeout(() => {
+      this.element.textContent = this.tops.map((top) => top.name + inWords(this.texts, top, time.t)).join(" ");
+    }, SAY_MS);
+  }
+
+  leave() {
+    clearTimeout(this.later);
+  }
+}
