@@ -22,6 +22,9 @@ const TELL_MS = 80; // ms without a change of the time after which Python is tol
 const SAME = 1e-9; // s
 const PATIENCE = 100; // ms that the old picture may be beside the new start without a remark
 
+// A page without a server may have one tilt only.
+const canTilt = ({ state }) => "tilt" in (JSON.parse(state).sliders ?? { tilt: true });
+
 class Lab {
   /** @param {Rendering<LabModel>} rendering */
   constructor({ model, el }) {
@@ -39,7 +42,7 @@ class Lab {
     const ask = (name, value) => this.ask(name, value);
     this.before = new Before(texts);
     this.time.chose = (speed) => (model.speed = speed);
-    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), camera: model.camera, set: (name, value) => (model[name] = value) });
+    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: canTilt(model) ? this.hand() : undefined, camera: model.camera, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
     this.words = new Words(texts, ask, () => this.goBack());
     this.answer = new Answer(texts, this.time);
