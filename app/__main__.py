@@ -1,4 +1,4 @@
-"""`python -m app`: see app.server.server."""
+"""`python -m app`: see app.server.server; `python -m app site DIR`: see app.page.site."""
 
 import logging
 import os
@@ -13,6 +13,10 @@ def run():
     # In a container nothing else ends the first process, and the imports below take some time.
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: sys.exit(0))
+    if sys.argv[1:2] == ["site"]:
+        from app.page.site import main as write
+
+        sys.exit(write(sys.argv[2:]))
     try:
         settings = Settings.of(os.environ, sys.argv[1:])
     except ValueError as error:

@@ -4,6 +4,8 @@ words; and Bokeh's callbacks into it.
 Panel serves only files beside or below a component's own module, so this module is beside static/.
 """
 
+import base64
+import json
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +37,28 @@ CALL = Path(__file__).with_name("call.js").read_text(encoding="utf-8")
 def call(run, **given):
     """A callback of a Bokeh model."""
     return CustomJS(args={"run": run, "given": given}, code=CALL, module=False)
+
+
+def classic(name, found):
+    """A classic script that calls a function of the bundle with the JSON of what was found: for pages that are opened
+    as files, which load no modules."""
+    inside, _, exported = BUNDLE.read_text(encoding="utf-8").rpartition("export{")
+    script = f"(function(){{'use strict';{inside}return {exported.split()[0]}}})()"
+    return f"{script}.{name}({json.dumps(as_json(found))});\n"
+
+
+def values_of(part):
+    """{parameter: value} of a component, for a page without a server."""
+    return {name: getattr(part, name) for name in set(type(part).param) - set(Bundled.param) | {"texts"}}
+
+
+def as_json(found):
+    """JSON for use inside a script of a page; bytes are {"base64": text}, which `valued` of data.js reads."""
+    return json.dumps(found, default=_coded).replace("<", "\\u003c")  # no end tag of a script, and no comment
+
+
+def _coded(value):
+    return value.item() if isinstance(value, np.generic) else {"base64": base64.b64encode(value).decode()}
 
 
 def inlined(path):

@@ -23,9 +23,10 @@ MOST, WHOLE = 350_000, 1_200_000  # bytes, compressed: before the first frame, a
 def arrays():
     """The contents of the file, {name: rows}."""
     line, _, bytes_ = gzip.decompress(first.FILE.read_bytes()).partition(b"\n")
-    numbers, found = np.frombuffer(bytes_, "<f4"), {}
-    for name, count, _, needed in json.loads(line):
-        found[name], numbers = numbers[: count * needed].reshape(needed, count).T, numbers[count * needed :]
+    numbers, found = np.frombuffer(bytes_, "<i4"), {}
+    for name, count, _, needed, steps in json.loads(line):
+        columns, numbers = numbers[: count * needed].reshape(needed, count), numbers[count * needed :]
+        found[name] = columns.cumsum(axis=1).cumsum(axis=1).T / steps
     assert not len(numbers)
     return found
 

@@ -30,7 +30,7 @@ NOT_SAID = {
     "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "desk.py", "files.py", "health.py", "logs.py",
-                    "messages.py", "pages.py", "settings.py", "sockets.py")},
+                    "messages.py", "pages.py", "settings.py", "site.py", "sockets.py")},
     "widgets/look.js": {"dark large": "a key"},
 }  # fmt: skip
 

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tarfile
 import tomllib
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -127,15 +128,8 @@ def test_the_archives_are_as_an_index_wants_them(archives):
 def test_the_wheel_in_an_empty_environment_starts_from_any_directory_and_a_visitor_comes(archives, tmp_path):
     """Without node, a compiler or the sources. Kernels run as Python here; another test compiles them."""
     [wheel] = archives.glob("*.whl")
-    folder = tmp_path / "venv" / ("Scripts" if os.name == "nt" else "bin")
-    subprocess.run([sys.executable, "-m", "venv", folder.parent], check=True)
-    for what in (["--require-hashes", "-r", ROOT / "locks/run.txt"], ["--no-deps", wheel]):
-        done = subprocess.run(
-            [folder / "python", "-m", "pip", "install", "--quiet", *what], capture_output=True, text=True
-        )
-        if re.search("No matching distribution|Max retries|timed out", done.stderr):
-            pytest.skip("the index of packages cannot be reached")
-        assert done.returncode == 0, done.stderr
+    locked = "--require-hashes", "-r", ROOT / "locks/run.txt"
+    folder = installed(tmp_path / "venv", locked, ["--no-deps", wheel]).parent
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     alone = ["env", "-u", "PYTHONPATH", "NUMBA_DISABLE_JIT=1", f"PATH={folder}", folder / "tippe-top"]
@@ -144,6 +138,50 @@ def test_the_wheel_in_an_empty_environment_starts_from_any_directory_and_a_visit
         assert run(Visitor.enter(server.url)).component("LabView")
         assert "Traceback" not in server.log and "Warning" not in server.log
     assert [*elsewhere.iterdir()] == []
+
+
+CORE = tomllib.loads((ROOT / "deploy/core/pyproject.toml").read_text(encoding="utf-8"))
+
+
+def test_the_core_alone_has_the_version_and_the_bounds_of_the_explorer():
+    for name in ("version", "license", "requires-python"):
+        assert CORE["project"][name] == PROJECT["project"][name]
+    bounds = {each.name: each for each in map(Requirement, CORE["project"]["dependencies"])}
+    assert bounds == {name: BOUNDS[name] for name in ("numpy", "scipy", "numba")}
+    assert CORE["build-system"]["requires"] == PROJECT["build-system"]["requires"][:1]
+
+
+def installed(folder, *whats):
+    """The Python of a new environment with what pip installs for each list of arguments."""
+    inside = folder / ("Scripts" if os.name == "nt" else "bin") / "python"
+    subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+    for what in whats:
+        done = subprocess.run([inside, "-m", "pip", "install", "--quiet", *what], capture_output=True, text=True)
+        if re.search("No matching distribution|Max retries|timed out", done.stderr):
+            pytest.skip("the index of packages cannot be reached")
+        assert done.returncode == 0, done.stderr
+    return inside
+
+
+@pytest.mark.served
+@pytest.mark.long
+def test_the_core_alone_runs_the_ten_lines_of_the_readme(tmp_path):
+    """In an environment without Panel, in the locked versions of what it depends on."""
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", tmp_path]
+    subprocess.run(build, cwd=ROOT / "deploy/core", check=True, capture_output=True)
+    [wheel] = tmp_path.glob("tippe_core-*.whl")
+    locked, known = tmp_path / "locked.txt", pins(ROOT / "locks/run.txt", platform.python_version())
+    locked.write_text("\n".join(f"{name}=={version}" for name, version in known), encoding="utf-8")
+    inside = installed(tmp_path / "venv", ["--constraint", locked, wheel])
+    lines = re.compile(r"```python\n(.*?)```.*?prints\n\n```\n(.*?)```", re.DOTALL)
+    code, printed = lines.search((ROOT / "README.md").read_text(encoding="utf-8")).groups()
+    alone = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    run = partial(subprocess.run, cwd=tmp_path, env=alone, capture_output=True, text=True, check=True)
+    assert run([inside, "-c", code]).stdout == printed
+    asks = "import importlib.metadata as m, tippe_core as t; print(t.__version__, *(d.name for d in m.distributions()))"
+    version, *names = run([inside, "-c", asks]).stdout.split()
+    assert version == PROJECT["project"]["version"]
+    assert {*names} - {"pip", "setuptools"} == {"llvmlite", "numba", "numpy", "scipy", "tippe-core"}
 
 
 @pytest.mark.served

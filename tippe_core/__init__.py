@@ -3,6 +3,7 @@
 Units: lengths in R, masses in M, accelerations in g, so times in (R/g)^1/2. The names in __all__ are the public ones.
 """
 
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 
 from .bodies.bare import BareSphere, StemmedSphere
@@ -36,10 +37,10 @@ from .paper.tielines import Tielines, lift_off_and_slip_tielines, limit_energy, 
 from .paper.top import Scales, Top
 from .paper.turning import SteadyPrecessions, steady_precessions, turning_points
 
-try:
-    __version__ = version("tippe-top-explorer")
-except PackageNotFoundError:  # sources that are not installed
-    __version__ = "unknown"
+__version__ = "unknown"  # sources that are not installed
+for _installed in ("tippe-core", "tippe-top-explorer"):  # this alone, or with the page
+    with suppress(PackageNotFoundError):
+        __version__ = version(_installed)
 
 __all__ = [
     "PRESETS", "SUNK", "UPRIGHT", "Ball", "BareSphere", "Change", "Constants", "Contensou", "Coulomb", "Ending",

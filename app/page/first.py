@@ -19,9 +19,8 @@ from pathlib import Path
 from urllib.parse import urlencode
 
 import numpy as np
-from panel.custom import JSComponent
 
-from app.bundle import BUNDLE, Bundled, address_of, inlined
+from app.bundle import BUNDLE, Bundled, address_of, inlined, values_of
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state import opened as room
@@ -53,14 +52,15 @@ def arrival():
     return LabTab(lab, None).view
 
 
-def written(view):
-    """The file: a line of JSON, [[name, rows, columns, stored columns], ...], then the columns as float32, rounded to
-    steps that are too small to be seen and that compress well."""
+def written(view, numbers=NUMBERS):
+    """The file: a line of JSON, [[name, rows, columns, stored columns, steps per unit], ...], then each column as the
+    second differences of its whole steps, which are too small to be seen, as int32: it compresses well."""
     heads, parts = [], []
-    for name, (width, needed, steps) in NUMBERS.items():
+    for name, (width, needed, steps) in numbers.items():
         rows = np.frombuffer(getattr(view, name), "<f4").reshape(-1, width)
-        heads.append([name, len(rows), width, needed])
-        parts.append((np.round(rows[:, :needed].T * steps) / steps).astype("<f4").tobytes())
+        heads.append([name, len(rows), width, needed, steps])
+        counts = np.round(rows[:, :needed].T.astype(float) * steps)
+        parts.append(np.diff(np.pad(counts, ((0, 0), (2, 0))), n=2).astype("<i4").tobytes())
     return gzip.compress(b"\n".join([json.dumps(heads).encode(), b"".join(parts)]), 9, mtime=0)
 
 
@@ -71,7 +71,7 @@ def words():
     for language in LANGUAGES:
         with speaking(language):
             view = arrival()
-            kept = {name: getattr(view, name) for name in view.param if name not in JSComponent.param}
+            kept = values_of(view)
         found[language] = {name: value for name, value in kept.items() if not isinstance(value, bytes)}
     return json.dumps(found).replace("<", "\\u003c")
 

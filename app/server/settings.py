@@ -175,7 +175,8 @@ def _parser(items):
     parser = argparse.ArgumentParser(
         prog="tippe-top" if Path(sys.argv[0]).stem == "tippe-top" else "python -m app",
         description="Serves the tippe top explorer, at http://localhost:5006/app by default.",
-        epilog="Each option is an environment variable too: --port 8765 is TIPPE_PORT=8765.",
+        epilog="Each option is an environment variable too: --port 8765 is TIPPE_PORT=8765. "
+        "`site --help`: a folder that opens without a server.",
         allow_abbrev=False,
     )
     for item in items:

@@ -3,17 +3,14 @@
 It contains the page's own parts: Bokeh and its figures, the bundle with three.js, and the bytes that Python computed.
 """
 
-import base64
 import html
-import json
 from pathlib import Path
 from string import Template
 
-import numpy as np
 from bokeh.embed import components
 from bokeh.settings import settings
 
-from app.bundle import BUNDLE, Bundled, inlined
+from app.bundle import BUNDLE, classic, values_of
 from app.model.colours import COLOURS
 from app.share.export import parameters
 from app.text import say, spoken
@@ -25,7 +22,6 @@ from app.widgets.times import TimeFigures, label
 from app.widgets.top3d import Top3D, show_top
 
 PAGE = Template(Path(__file__).with_name("letter.html").read_text(encoding="utf-8"))
-SCRIPT = inlined(Path(__file__).with_name("letter.js"))
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
 PLANE = f"({SYMBOLS['K_J']}, {SYMBOLS['angle']})"
 TYPESET = {
@@ -72,10 +68,6 @@ def letter(scene, link="", look=None):
         for portrait, div in zip(portraits, portrait_divs, strict=True)
     )
     shown = html.escape(link)
-    data = {
-        "bundle": BUNDLE.read_text(encoding="utf-8"),
-        "models": {type(part).__name__: dict(_values(part)) for part in (top, plane, surface)},
-    }
     return PAGE.substitute(
         lang=spoken(),
         accent=COLOURS["accent"],
@@ -95,9 +87,7 @@ def letter(scene, link="", look=None):
         link=f'<p>{say("share.letter.change")} <a href="{shown}">{shown}</a></p>' if link else "",
         bokeh=f"<script>{(settings.bokehjs_path() / 'js' / 'bokeh.min.js').read_text(encoding='utf-8')}</script>",
         figures=script,
-        script=SCRIPT,
-        # no end tag of a script, and no comment, inside a script
-        data=json.dumps(data).replace("<", "\\u003c"),
+        script=classic("letter", {type(part).__name__: values_of(part) for part in (top, plane, surface)}),
     ).encode()
 
 
@@ -106,11 +96,3 @@ def _said(scene):
     tilts = {"theta_inner": say("share.letter.least"), "theta_outer": say("share.letter.largest")}
     for name, (symbol, unit) in TYPESET.items():
         yield f"{tilts.get(name, symbol)} = {known[name][0]:.6g} {unit}".rstrip().replace("-", "−")
-
-
-def _values(part):
-    for name in set(type(part).param) - set(Bundled.param) | {"texts"}:
-        value = getattr(part, name)
-        if isinstance(value, bytes):
-            value = {"base64": base64.b64encode(value).decode()}
-        yield name, value.item() if isinstance(value, np.generic) else value

@@ -4,16 +4,16 @@ import { numbersIn, standIn } from "../../app/frontend/src/stand_in.js";
 import { near } from "./helping.js";
 
 const file = (heads, ...numbers) => {
-  const line = new TextEncoder().encode(`${JSON.stringify(heads)}\n`), bytes = new Uint8Array(new Float32Array(numbers).buffer);
+  const line = new TextEncoder().encode(`${JSON.stringify(heads)}\n`), bytes = new Uint8Array(new Int32Array(numbers).buffer);
   const all = new Uint8Array(line.length + bytes.length);
   all.set(line);
   all.set(bytes, line.length);
   return all.buffer;
 };
 
-test("arrays are stored column by column, and missing columns are zero", () => {
-  const found = numbersIn(file([["frames", 3, 4, 2], ["profile", 1, 2, 2]], 1, 2, 3, 10, 20, 30, 7, 8));
-  near([...new Float32Array(found.frames)], [1, 10, 0, 0, 2, 20, 0, 0, 3, 30, 0, 0]);
+test("arrays are stored column by column as second differences of steps, and missing columns are zero", () => {
+  const found = numbersIn(file([["frames", 3, 4, 2, 2], ["profile", 1, 2, 2, 1]], 2, 0, 0, 20, -20, 5, 7, 8));
+  near([...new Float32Array(found.frames)], [1, 10, 0, 0, 2, 10, 0, 0, 3, 12.5, 0, 0]);
   near([...new Float32Array(found.profile)], [7, 8]);
 });
 

@@ -12,6 +12,10 @@ export function float32(bytes) {
 /** @param {string} text */
 export const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
+// Reads JSON in which bytes are {"base64": text}.
+/** @param {string} text */
+export const valued = (text) => JSON.parse(text, (_, value) => (typeof value?.base64 === "string" ? bytesOf(value.base64) : value));
+
 // The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a round number for a scale.
 /** @param {number} x */
 export function niceAbove(x) {

@@ -11,7 +11,8 @@ let isLate = false; // the session came first
 let early = null; // the picture that waits for its model
 
 // The language of the address, otherwise one that the browser prefers: the same choice as the server's.
-function inOneLanguage(words, asked) {
+/** @param {Record<string, any>} words @param {string | null} asked */
+export function inOneLanguage(words, asked) {
   const preferred = navigator.languages.map((tag) => tag.split("-")[0].toLowerCase());
   return words[asked || preferred.find((language) => language in words) || "en"];
 }

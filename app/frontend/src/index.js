@@ -16,6 +16,7 @@ import { renderSteps } from "./learn/steps.js";
 import { timeOf, topsOf } from "./motion/clock.js";
 import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
+import { site } from "./site.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
@@ -80,4 +81,5 @@ export default {
   TopsMap: { render: renderTopsMap },
   first,
   letter,
+  site,
 };

@@ -1,5 +1,5 @@
 // The own pictures in a letter: a page that works without a server. It contains the values of their models.
-import { bytesOf } from "./data.js";
+import { valued } from "./data.js";
 import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
@@ -21,14 +21,17 @@ export function modelOf(values) {
   });
 }
 
-/** @param {Record<string, Record<string, any>>} models by the id of the element that holds the picture */
+// Draws a component from these values, in place of what is there.
+/** @param {string} id of the element @param {Record<string, any>} values @param {(rendering: any) => void} render */
+export function drawIn(id, values, render) {
+  const place = /** @type {HTMLElement} */ (document.getElementById(id)), el = document.createElement("div"), model = modelOf(values);
+  el.style.height = "100%";
+  (place.shadowRoot ?? place.attachShadow({ mode: "open" })).replaceChildren(el);
+  render({ model, el, view: {} });
+  return { model, leave: () => void (model.remove = true) };
+}
+
+/** @param {string} models JSON of their values, by the id of the element that holds the picture */
 export function letter(models) {
-  for (const [name, said] of Object.entries(models)) {
-    const values = Object.fromEntries(Object.entries(said).map(([key, value]) =>
-      [key, value?.base64 === undefined ? value : bytesOf(value.base64)]));
-    const place = /** @type {HTMLElement} */ (document.getElementById(name)), el = document.createElement("div");
-    el.style.height = "100%";
-    place.attachShadow({ mode: "open" }).append(el);
-    pictures[name]({ model: modelOf(values), el, view: {} });
-  }
+  for (const [name, values] of Object.entries(valued(models))) drawIn(name, values, pictures[name]);
 }

@@ -32,14 +32,21 @@ function isSame(a, b) {
   return one.length === other.length && one.every((value, i) => value === other[i]);
 }
 
-// Reads the arrays of the file; it stores them column by column, the result has them row by row.
+// Reads the arrays of the file; it stores them column by column, as second differences of whole numbers of steps. The
+// result has them row by row.
 /** @param {ArrayBuffer} bytes @returns {Record<string, ArrayBuffer>} */
 export function numbersIn(bytes) {
   const all = new Uint8Array(bytes), end = all.indexOf(10), found = {};
   let at = end + 1;
-  for (const [name, count, width, needed] of JSON.parse(new TextDecoder().decode(all.subarray(0, end)))) {
-    const columns = new Float32Array(bytes.slice(at, (at += 4 * count * needed))), rows = new Float32Array(count * width);
-    for (let j = 0; j < needed; j++) for (let i = 0; i < count; i++) rows[i * width + j] = columns[j * count + i];
+  for (const [name, count, width, needed, steps] of JSON.parse(new TextDecoder().decode(all.subarray(0, end)))) {
+    const columns = new Int32Array(bytes.slice(at, (at += 4 * count * needed))), rows = new Float32Array(count * width);
+    for (let j = 0; j < needed; j++) {
+      for (let i = 0, value = 0, rise = 0; i < count; i++) {
+        rise += columns[j * count + i];
+        value += rise;
+        rows[i * width + j] = value / steps;
+      }
+    }
     found[name] = rows.buffer;
   }
   return found;

@@ -53,10 +53,11 @@ export class Control {
     });
     this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
     this.below = part("div", { class: "below" });
+    this.remark = part("p", { class: "small", role: "status" });
     const label = part("label", { for: id, title: said.hint }, said.name);
     if (said.html) label.innerHTML = said.html;
     this.element = part("div", { class: "ctl" }, label,
-      part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.wrong);
+      part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.remark, this.wrong);
   }
 
   // Requests what was typed, once. An element that was moved in the page raises no "change".
@@ -128,6 +129,8 @@ export class Control {
     }
     this.number.setAttribute("aria-invalid", String(Boolean(message)));
     this.element.classList.toggle("bad", Boolean(message));
+    this.remark.textContent = state.remarks?.[this.name] ?? "";
+    this.remark.hidden = !this.remark.textContent;
     explain(this.wrong, message, message ? this.ways(state.nearest[this.name], kept, own) : [], Boolean(this.said.html));
   }
 

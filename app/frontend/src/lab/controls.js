@@ -37,9 +37,9 @@ export class Controls {
     this.parts[2].note(state.law);
     for (const [i, control] of this.parts.entries()) {
       // ice has no friction to set, and nothing slips on the rough table; three tables share one slider
-      const idle = table === "three" ? i > 0 : control.name === "mu" && (table === "rough" || table === "ice");
-      control.element.hidden = idle;
-      control.show(state, ahead);
+      const idle = table === "three" ? i > 0 : control.name === "mu" && (table === "rough" || table === "ice"), isThere = control.name in state.sliders;
+      control.element.hidden = idle || !isThere;
+      if (isThere) control.show(state, ahead);
     }
     this.picks.show();
     if (table === "rough" || table === "ice") this.parts[0].below.replaceChildren();

@@ -24,6 +24,9 @@ const TELL_MS = 80; // ms without a change of the time after which Python is tol
 const SAME = 1e-9; // s
 const PATIENCE = 100; // ms that the old picture may be beside the new start without a remark
 
+// A page without a server may have one tilt only.
+const canTilt = ({ state }) => "tilt" in (JSON.parse(state).sliders ?? { tilt: true });
+
 export class Lab {
   /** @param {Rendering<LabModel>} rendering */
   constructor({ model, el }) {
@@ -42,8 +45,8 @@ export class Lab {
     this.sound = new Sound();
     this.before = new Before(texts);
     this.time.chose = (speed) => (model.speed = speed);
-    this.flick = new Flicking(this);
-    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand(), flick: this.flick, camera: model.camera, set: (name, value) => (model[name] = value) });
+    this.flick = texts.lets_go ? new Flicking(this) : undefined; // a page without a server computes no new run
+    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: canTilt(model) ? this.hand() : undefined, flick: this.flick, camera: model.camera, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
     this.words = new Words(texts, ask, () => this.goBack());
     this.answer = new Answer(texts, this.time, () => this.showLevel());
@@ -178,7 +181,7 @@ export class Lab {
     if (!this.isBegun && scene.end) this.begin();
     this.element.toggleAttribute("data-whole", Boolean(scene.state.whole)); // for tests only
     this.element.classList.toggle("old", Boolean(scene.state.old));
-    this.flick.answered();
+    this.flick?.answered();
     if (this.anew === scene.table) {
       this.anew = "";
       this.spin();

@@ -14,7 +14,7 @@ export class Stage {
    * @param {Record<string, any>} texts
    * @param {import("./time.js").Time} time
    * @param {(name: string, value: any) => void} ask
-   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void }, flick: Hand, camera: number[], set: (name: string, value: any) => void }} of
+   * @param {{ forget: () => void, hand?: { pull(degrees: number): void, letGo(): void }, flick?: Hand, camera: number[], set: (name: string, value: any) => void }} of
    *     forget: dismisses the earlier run; camera: the chosen view, or empty; set: sets it, and what is shown
    */
   constructor(texts, time, ask, { forget, hand, flick, camera, set }) {
@@ -22,7 +22,7 @@ export class Stage {
     this.time = time;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // below three tops: what each of them does
-    const words = { ...texts, hint: texts.turn_hint, handle: texts.axis, handle_hint: texts.axis_hint };
+    const words = { ...texts, hint: [texts.flick_hint, texts.turn_hint].filter(Boolean).join(" "), handle: texts.axis, handle_hint: texts.axis_hint };
     this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand, flick, camera, turned: (chosen) => set("camera", chosen) });
     this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75, flick }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));

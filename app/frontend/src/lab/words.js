@@ -3,7 +3,7 @@ import { latest } from "./curves.js";
 import { part, say } from "./parts.js";
 
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
-const OPEN = { rough: "three" }; // where the research is open already
+const OPEN = { rough: "three" }; // where the research is open already, or not there
 
 export class Words {
   /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} back goes back to the earlier run */
@@ -27,7 +27,7 @@ export class Words {
     const { texts } = this;
     this.scene = scene;
     const next = NEXT[scene.table];
-    this.to = next === "research" && scene.isOpen ? OPEN[scene.table] : next;
+    this.to = next === "research" && (scene.isOpen || !texts.nexts[next]) ? OPEN[scene.table] : next;
     this.next.hidden = !this.to;
     if (this.to) this.next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[this.to]} →`));
     const isLifted = scene.table === "three" || (scene.run?.events ?? []).some(([, code]) => code === "over");

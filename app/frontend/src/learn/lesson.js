@@ -286,8 +286,8 @@ class Lesson {
     }));
     const other = this.model.steps.find(({ theory }) => theory !== step.theory);
     this.more.replaceChildren(
-      this.link(step.theory ? lesson.home : lesson.sections.theory, () => other && this.open(other.name)),
-      ...SECTIONS.map((name) => this.link(lesson.sections[name], () => this.ask("section", name))),
+      ...(lesson.sections.theory ? [this.link(step.theory ? lesson.home : lesson.sections.theory, () => other && this.open(other.name))] : []),
+      ...SECTIONS.filter((name) => lesson.sections[name]).map((name) => this.link(lesson.sections[name], () => this.ask("section", name))),
       this.link(lesson.worksheet, () => this.paper()), this.link(lesson.room.present, () => this.present(true)));
   }
 

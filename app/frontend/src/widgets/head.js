@@ -46,9 +46,10 @@ class Head {
     /** @type {{ name: string, box: HTMLInputElement, element: HTMLElement }[]} */
     this.switches = [];
     this.more = part("button", { type: "button", class: "icon", "aria-label": texts.more, "aria-expanded": "false", onclick: () => this.open(this.menu.hidden) }, "⋯");
+    this.session = [part("span", { class: "wide" }, this.levels[0].element, part("span", {}, ...this.steps[0]), this.shares[0])]; // what only a server can do
     this.menu = this.makeMenu();
     this.row = part("header", { class: "row" }, part("h1", {}, texts.title), this.toy, part("nav", { "aria-label": texts.tabs }, this.tabs.element),
-      part("span", { class: "grow" }), part("span", { class: "wide" }, this.levels[0].element, part("span", {}, ...this.steps[0]), this.shares[0]),
+      part("span", { class: "grow" }), this.session[0],
       this.more, this.menu);
     this.below = part("div", { class: "rooms" }, this.rooms.element);
     el.replaceChildren(part("style", {}, headStyle), part("div", { class: "all" }, this.row, this.below));
@@ -62,13 +63,13 @@ class Head {
       return { name, box, element: part("label", {}, box, texts[name]) };
     });
     const sound = part("input", { type: "checkbox", role: "switch", onchange: () => (listening.on = sound.checked) });
-    const guide = (what) => part("button", { type: "button", onclick: () => {
+    const guide = (what) => part("button", { type: "button", hidden: !texts[what], onclick: () => {
       this.open(false);
       window.dispatchEvent(new CustomEvent("tippe:guide", { detail: what }));
     } }, texts[what]);
     this.tour = guide("tour");
-    return part("div", { class: "menu", role: "group", "aria-label": texts.more, hidden: true },
-      part("div", { class: "narrow" }, this.levels[1].element, part("span", {}, ...this.steps[1], this.shares[1])),
+    this.session.push(part("div", { class: "narrow" }, this.levels[1].element, part("span", {}, ...this.steps[1], this.shares[1])));
+    return part("div", { class: "menu", role: "group", "aria-label": texts.more, hidden: true }, this.session[1],
       this.languages.element, ...this.switches.map(({ element }) => element), part("label", {}, sound, texts.sound), this.tour, guide("keys"), guide("statement"));
   }
 
@@ -100,9 +101,8 @@ class Head {
 
   // Switches the tab at once; Python is told, and creates what does not exist yet.
   turn(room) {
-    const { places } = this.model.state, [doc] = Bokeh.documents;
-    for (const [name, place] of Object.entries(places)) {
-      doc.get_model_by_name(place)?.setv({ visible: name === room }, { sync: false });
+    for (const [name, place] of Object.entries(this.model.state.places)) {
+      Bokeh.documents[0].get_model_by_name(place)?.setv({ visible: name === room }, { sync: false });
     }
   }
 
@@ -130,6 +130,7 @@ class Head {
     if (!state.tabs || state.answered < this.count) return; // newer requests are on their way
     this.tabs.show(state.tabs, state.tab);
     for (const levels of this.levels) levels.show(state.levels, state.level);
+    for (const each of this.session) each.hidden = !state.levels.length;
     this.below.hidden = !state.rooms.length;
     if (state.rooms.length) this.rooms.show(state.rooms, state.room);
     for (const share of this.shares) share.setAttribute("aria-expanded", String(state.shares));

@@ -50,7 +50,8 @@ class Look {
     this.model = model;
     this.first = new WeakMap(); // for each part of a figure, its colours and sizes before any look
     this.name = "light";
-    this.doc = Bokeh.documents.find((doc) => doc.get_model_by_id(model.id)) ?? Bokeh.documents[0];
+    const documents = typeof Bokeh === "undefined" ? [] : Bokeh.documents; // none in a page without a server
+    this.doc = documents.find((doc) => doc.get_model_by_id(model.id)) ?? documents[0];
     this.seen = 0;
   }
 
@@ -72,7 +73,7 @@ class Look {
   }
 
   dressAll() {
-    const all = [...this.doc.all_models];
+    const all = [...(this.doc?.all_models ?? [])];
     this.seen = all.length;
     for (const part of all) if (!part.type?.startsWith("panel.") && part.attributes) this.dress(part);
   }
@@ -100,13 +101,13 @@ export function renderLook({ model }) {
   document.documentElement.lang = model.texts.language;
   const look = new Look(model), again = coalesce(() => look.dressAll());
   const onChange = () => look.isUndone && again();
-  look.doc.on_change(onChange);
+  look.doc?.on_change(onChange);
   for (const name of ["dark", "large"]) model.on(name, look.update);
   look.system.addEventListener("change", look.update);
   model.on("remove", () => {
     again.cancel();
     look.system.removeEventListener("change", look.update);
-    look.doc.remove_on_change(onChange);
+    look.doc?.remove_on_change(onChange);
   });
   if (look.isDark || model.large || look.system.matches) look.update();
 }
