@@ -155,6 +155,7 @@ CHANGES = {
     "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT, SHORT, COUNT),
                      "piece": row(text(200_000), COUNT, COUNT, COUNT, SHORT, COUNT)},
     "Field": {"value": text(60)},
+    "Film": {},
     "FilmStage": {},
     "Fold": {},
     "Menu": {"value": CHOSEN},

@@ -4,7 +4,7 @@ import panel as pn
 
 from app.share import export, glb, programs, saved_runs
 from app.share.letter import letter
-from app.share.parts import Paper, Photo
+from app.share.parts import Film, Paper, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.share.saved_runs import Shown
 from app.text import listed, say
@@ -64,7 +64,7 @@ class Files:
         self._table = Choice({tables[name]: name for name in tables}, next(iter(tables)), margin=(4, 0))
         self._table.on("value", lambda event: self._name())
         self._of = words("", margin=(4, 0))
-        self._photo = Photo(margin=0, none=say("share.no_top"))
+        self._photo, self._film = Photo(margin=0, none=say("share.no_top")), Film(margin=0, sizing_mode="stretch_width")
         self._saves = {kind: self._save(kind) for kinds in ROWS.values() for kind in kinds}
         self._mesh = Download(runs, lambda: (body(),), lambda shape: shape.stl(), label=NAMES["stl"],
                               filename="tippe-top.stl", margin=0)  # fmt: skip
@@ -83,6 +83,7 @@ class Files:
         self._more = Fold(say("share.panel.figures"), figures, margin=(8, 0))
         self.view = [
             self._of, self._table,
+            _row(said["photo"], *rows.pop("photo")), _row(self._film),
             *(_row(said[name], *saves) for name, saves in rows.items()),
             self._more,
         ]  # fmt: skip
@@ -121,6 +122,7 @@ class Files:
         if shown and self._table.value not in shown:
             self._table.value = next(iter(shown))
         self._table.visible = len(shown) > 1
+        self._film.anew += 1
         shape = self._body()
         self._mesh.visible = shape is not None and not isinstance(shape, BareSphere)
         self._solid.object = _titled("solid", "print" if self._mesh.visible else "says")

@@ -21,6 +21,7 @@ import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
+import { renderFilm } from "./widgets/film.js";
 import { renderFilmStage } from "./widgets/film_stage.js";
 import { renderGuide } from "./widgets/guide.js";
 import { renderHead } from "./widgets/head.js";
@@ -53,6 +54,7 @@ export default {
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
   Field: { render: renderField },
+  Film: { render: renderFilm },
   FilmStage: { render: renderFilmStage },
   Fold: { render: renderFold },
   Guide: { render: renderGuide },

@@ -5,6 +5,7 @@ import { Asking } from "./asking.js";
 import { Before } from "./before.js";
 import { Controls } from "./controls.js";
 import { Curves, TABLES } from "./curves.js";
+import { Film } from "./film.js";
 import { Keeps } from "./keeps.js";
 import { Numbers } from "./numbers.js";
 import { part } from "./parts.js";
@@ -16,13 +17,14 @@ import { SHOWS } from "./top.js";
 import { Words } from "./words.js";
 import { followLook } from "../controls/look.js";
 import { coalesce, debounce, float32 } from "../data.js";
+import { canBeFilmed } from "../motion/filmed.js";
 import { Press } from "../widgets/press.js";
 
 const TELL_MS = 80; // ms without a change of the time after which Python is told of it
 const SAME = 1e-9; // s
 const PATIENCE = 100; // ms that the old picture may be beside the new start without a remark
 
-class Lab {
+export class Lab {
   /** @param {Rendering<LabModel>} rendering */
   constructor({ model, el }) {
     const { texts } = model;
@@ -57,6 +59,7 @@ class Lab {
       this.answer.draw();
     });
     this.show = coalesce(() => this.showNow());
+    this.isFilmedNoMore = canBeFilmed(this);
   }
 
   ask(name, value) {
@@ -174,6 +177,8 @@ class Lab {
     this.at();
   }
 
+  film = () => new Film(this);
+
   // Python sets whether it plays, and when.
   hear() {
     const { model, time } = this, t = model.time * time.unit;
@@ -204,6 +209,7 @@ class Lab {
     window.removeEventListener("tippe:command", this.tells);
     for (const gone of [this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
     this.unfollow();
+    this.isFilmedNoMore();
   }
 }
 

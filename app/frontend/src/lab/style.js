@@ -1,5 +1,5 @@
 // The Lab's style. The layout depends on the width of the Lab, not of the window.
-import { dock, forFingers, numbers, shared } from "../controls/style.js";
+import { dock, forFingers, numbers, progress, shared } from "../controls/style.js";
 import { endRules } from "../ends.js";
 
 // The layout: the top and the answer side by side, the bar that controls the time directly below the top.
@@ -139,9 +139,7 @@ const controls = `
 .ends .mark { position: absolute; top: -6px; height: 20px; width: 2px; margin-left: -1px; background: var(--accent); }
 .ends .was { position: absolute; top: -4px; height: 18px; border-left: 2px dashed var(--ink); margin-left: -1px; }
 .launch { min-width: 116px; text-align: right; } .launch .primary { touch-action: none; user-select: none; -webkit-user-select: none; } .wait { display: flex; align-items: center; gap: 12px; } .wait .small { min-width: 4ch; font-variant-numeric: tabular-nums; } .wait .outline { min-height: 40px; }
-.wait progress { -webkit-appearance: none; appearance: none; width: 110px; height: 6px; border: 0; border-radius: 3px; overflow: hidden; background: var(--line); }
-.wait progress::-webkit-progress-bar { background: var(--line); } .wait progress::-webkit-progress-value { background: var(--ink); } .wait progress::-moz-progress-bar { background: var(--ink); }
-:is(.numbers, .body) { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } :is(.numbers, .body) summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } :is(.numbers, .body) summary::after { content: "+"; } :is(.numbers, .body)[open] summary::after { content: "−"; }
+${progress}:is(.numbers, .body) { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } :is(.numbers, .body) summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } :is(.numbers, .body) summary::after { content: "+"; } :is(.numbers, .body)[open] summary::after { content: "−"; }
 .body .ctl { margin-bottom: 8px; } .body + :is(.body, .numbers) { border-top: 0; }
 .numbers th { font-weight: 400; color: var(--ink-2); } .numbers td { text-align: right; padding-right: 0; } .numbers :is(th, td) { padding-block: 2px; }
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
