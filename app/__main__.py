@@ -22,7 +22,9 @@ def run():
     from app.model.votes.desk import DESK
     from app.page.page import show
     from app.server.server import main
+    from app.share.parts import Embed
 
+    Embed.param.frames.default = settings.frames
     DESK.keep(settings.votes, settings.votes_per_address)
     if settings.maps:
         keep_in(Path(settings.maps))

@@ -41,6 +41,17 @@ class Paper(Bundled):
     page = param.String(default="", doc="in HTML")
 
 
+class Frame(Bundled):
+    """Makes the page fit into a frame of another page, and tells that page how high it is."""
+
+
+class Embed(Bundled):
+    """The code that shows the page in a frame of another page, and how that would look."""
+
+    code = param.String(default="", doc="in HTML")
+    frames = param.String(default="*", doc="the pages that may show it, as in a content security policy")
+
+
 class Film(Bundled):
     """Saves the Lab's stage, line and headline as a film, which the browser draws and writes."""
 

@@ -215,6 +215,11 @@ interface PhotoModel extends Model {
   none: string;
 }
 
+interface EmbedModel extends Model {
+  code: string;
+  frames: string;
+}
+
 interface FilmModel extends Model {
   encoders: string;
   anew: number;
