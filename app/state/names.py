@@ -35,7 +35,7 @@ SPEEDS = SLOWER | FASTER | {"auto": 0.0}
 VERSION = 4
 VERSION_NAME, TAB, LEVEL, LANGUAGE, VOTE, SECRET = "v", "tab", "level", "lang", "vote", "room"
 FRAME = "frame"
-"""Names that are read before there are views. FRAME: "1" on a page in a frame of another, which has no head. SECRET: the
+"""Names that are read before there are views. FRAME: "1" on a page in a frame of another, without a head. SECRET: the
 teacher's key of a vote, only in the teacher's own address."""
 
 
