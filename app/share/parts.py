@@ -2,7 +2,7 @@
 
 import param
 
-from app.bundle import Bundled
+from app.bundle import ENCODERS, Bundled, Encoders, address_of
 
 
 class Address(Bundled):
@@ -39,6 +39,25 @@ class Paper(Bundled):
 
     label = param.String(default="")
     page = param.String(default="", doc="in HTML")
+
+
+class Frame(Bundled):
+    """Makes the page fit into a frame of another page, and tells that page how high it is."""
+
+
+class Embed(Bundled):
+    """The code that shows the page in a frame of another page, and how that would look."""
+
+    code = param.String(default="", doc="in HTML")
+    frames = param.String(default="*", doc="the pages that may show it, as in a content security policy")
+
+
+class Film(Bundled):
+    """Saves the Lab's stage, line and headline as a film, which the browser draws and writes."""
+
+    SAYS = ("Stretch",)
+    encoders = param.String(default=address_of(Encoders, ENCODERS), doc="the address of the script that writes files")
+    anew = param.Integer(default=0, doc="grows when another motion or pace may be filmed")
 
 
 class Photo(Bundled):

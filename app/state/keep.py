@@ -15,7 +15,7 @@ from app.model.explorer import Explorer
 from app.model.start import arrives
 from app.state import asked, older
 from app.state.codecs import Body, Number
-from app.state.names import NAMES, SECRET, VERSION, VERSION_NAME, of, query
+from app.state.names import FRAME, NAMES, SECRET, VERSION, VERSION_NAME, of, query
 from app.text import say, told
 from tippe_core import TopError
 
@@ -49,6 +49,7 @@ def read(query):
 
 def _is_look(texts):
     """Whether all that is said is how the page looks, or its language."""
+    texts = {key: text for key, text in texts.items() if key != FRAME}
     looks = {name.key: name for name in (*of("Look").values(), *of("PageLanguage").values())}
     return all(key in looks for key in texts) and not values(texts, {key: looks[key] for key in texts})[1]
 

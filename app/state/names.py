@@ -34,8 +34,9 @@ SPEEDS = SLOWER | FASTER | {"auto": 0.0}
 # The defaults belong to a version: if they or the meaning of a name change, this becomes 5.
 VERSION = 4
 VERSION_NAME, TAB, LEVEL, LANGUAGE, VOTE, SECRET = "v", "tab", "level", "lang", "vote", "room"
-"""Names that are read before there are views. SECRET: the teacher's key of a vote, only in the teacher's own
-address."""
+FRAME = "frame"
+"""Names that are read before there are views. FRAME: "1" on a page in a frame of another, without a head. SECRET: the
+teacher's key of a vote, only in the teacher's own address."""
 
 
 @dataclass(frozen=True)

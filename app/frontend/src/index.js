@@ -22,7 +22,10 @@ import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
+import { renderEmbed } from "./widgets/embed.js";
+import { renderFilm } from "./widgets/film.js";
 import { renderFilmStage } from "./widgets/film_stage.js";
+import { renderFrame } from "./widgets/frame.js";
 import { renderGuide } from "./widgets/guide.js";
 import { renderHead } from "./widgets/head.js";
 import { renderLines } from "./widgets/lines.js";
@@ -51,11 +54,14 @@ export default {
   Connection: { render: renderConnection },
   Copy: { render: renderCopy },
   Download: { render: renderDownload },
+  Embed: { render: renderEmbed },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
   Field: { render: renderField },
+  Film: { render: renderFilm },
   FilmStage: { render: renderFilmStage },
   Fold: { render: renderFold },
+  Frame: { render: renderFrame },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
   LessonView: { render: renderLesson },

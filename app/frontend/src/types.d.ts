@@ -64,6 +64,7 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   azimuth?: number; // rad: as of Frames
   playing: boolean;
   speed: number;
+  now?: number; // ms: the time of a film in which it is drawn, picture by picture
   until?: number; // the motion is played once, to this time; else it repeats
   camera: number[];
   measured?: Bytes;
@@ -221,6 +222,16 @@ interface PhotoModel extends Model {
   caption: string[];
   wide: number;
   none: string;
+}
+
+interface EmbedModel extends Model {
+  code: string;
+  frames: string;
+}
+
+interface FilmModel extends Model {
+  encoders: string;
+  anew: number;
 }
 
 interface ShareHeadModel extends Model {

@@ -5,6 +5,7 @@ export function followLook(frame, drawAnew = () => {}) {
     const look = document.documentElement.dataset.look ?? "";
     frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
     frame.toggleAttribute("data-large", look.endsWith("large"));
+    frame.toggleAttribute("data-framed", document.documentElement.dataset.framed !== undefined);
     drawAnew();
   };
   take();

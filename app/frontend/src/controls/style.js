@@ -70,6 +70,11 @@ export const numbers = `
 .wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
 `;
 
+// How far something is that takes a while.
+export const progress = `.wait progress { -webkit-appearance: none; appearance: none; width: 110px; height: 6px; border: 0; border-radius: 3px; overflow: hidden; background: var(--line); }
+.wait progress::-webkit-progress-bar { background: var(--line); } .wait progress::-webkit-progress-value { background: var(--ink); } .wait progress::-moz-progress-bar { background: var(--ink); }
+`;
+
 // A choice with buttons on a ground of its own.
 export const segments = `.seg { flex-wrap: wrap; background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
 `;

@@ -5,6 +5,7 @@ import { Asking } from "./asking.js";
 import { Before } from "./before.js";
 import { Controls } from "./controls.js";
 import { Curves, TABLES } from "./curves.js";
+import { Film } from "./film.js";
 import { Flicking } from "./flick.js";
 import { Keeps } from "./keeps.js";
 import { Numbers } from "./numbers.js";
@@ -18,6 +19,7 @@ import { SHOWS } from "./top.js";
 import { Words } from "./words.js";
 import { followLook } from "../controls/look.js";
 import { coalesce, debounce, float32 } from "../data.js";
+import { canBeFilmed } from "../motion/filmed.js";
 import { Press } from "../widgets/press.js";
 
 const TELL_MS = 80; // ms without a change of the time after which Python is told of it
@@ -64,6 +66,7 @@ export class Lab {
       this.answer.draw();
     });
     this.show = coalesce(() => this.showNow());
+    this.isFilmedNoMore = canBeFilmed(this);
   }
 
   ask(name, value) {
@@ -189,6 +192,8 @@ export class Lab {
     this.at();
   }
 
+  film = () => new Film(this);
+
   // Python sets whether it plays, and when.
   hear() {
     const { model, time } = this, t = model.time * time.unit;
@@ -220,6 +225,7 @@ export class Lab {
     window.removeEventListener("tippe:command", this.tells);
     for (const gone of [this.sound, this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
     this.unfollow();
+    this.isFilmedNoMore();
   }
 }
 

@@ -14,10 +14,10 @@ export class Stage {
    * @param {Record<string, any>} texts
    * @param {import("./time.js").Time} time
    * @param {(name: string, value: any) => void} ask
-   * @param {{ forget: () => void, hand?: { pull(degrees: number): void, letGo(): void }, flick?: Hand, camera: number[], set: (name: string, value: any) => void }} of
+   * @param {{ forget?: () => void, hand?: { pull(degrees: number): void, letGo(): void }, flick?: Hand, camera: number[], set?: (name: string, value: any) => void }} of
    *     forget: dismisses the earlier run; camera: the chosen view, or empty; set: sets it, and what is shown
    */
-  constructor(texts, time, ask, { forget, hand, flick, camera, set }) {
+  constructor(texts, time, ask, { forget, hand, flick, camera, set = () => {} }) {
     this.texts = texts;
     this.time = time;
     /** @type {Record<string, HTMLElement>} */

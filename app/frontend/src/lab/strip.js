@@ -6,7 +6,7 @@ import { SPEEDS } from "./time.js";
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
 const GAP = 6; // px between the plot and what is left of it
 const LETTER = 0.51; // mean width of a letter, in units of the font size
-const NARROW = 400; // px: a narrower strip uses short words
+const NARROW = 660; // px: a narrower strip uses short words
 const NEED = 100; // px: a shorter stage of the run has no room for a small top
 const ICONS = {
   play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z", again: "M4 4v4h4M4.500 8a6 6 0 1 1-.6 4",
@@ -72,6 +72,11 @@ export class Strip {
     return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 15 * this.size : 0);
   }
 
+  // By the whole: the plot is wider beside short words, and would not be narrow then.
+  get isNarrow() {
+    return this.element.clientWidth < NARROW;
+  }
+
   // font size in px
   get size() {
     return parseFloat(getComputedStyle(this.plot).fontSize);
@@ -96,7 +101,7 @@ export class Strip {
   // Short where there is little room. The list is as wide as its longest words, because a plot that became narrower
   // while the speed changes would leave the hand on it.
   writeSpeeds() {
-    const { texts, speed } = this, isNarrow = this.width < NARROW, names = isNarrow ? texts.short_speeds : texts.speeds;
+    const { texts, speed, isNarrow } = this, names = isNarrow ? texts.short_speeds : texts.speeds;
     SPEEDS.forEach((_, i) => (speed.options[i + 1].text = names[i]));
     const longest = Math.max(...names.map((name) => say(texts, texts.automatic, { speed: name }).length));
     speed.style.minWidth = isNarrow ? "" : `calc(${longest}ch + 2em)`;
@@ -228,7 +233,7 @@ export class Strip {
     this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, 2], tilt: [curves.at(t, TILT) || 0, 0], headline: headline ?? "" }));
     const speed = String(time.chosen);
     if (this.speed.value !== speed) this.speed.value = speed;
-    const isNarrow = this.width < NARROW, fits = (isNarrow ? texts.short_speeds : texts.speeds)[SPEEDS.indexOf(time.speed)];
+    const { isNarrow } = this, fits = (isNarrow ? texts.short_speeds : texts.speeds)[SPEEDS.indexOf(time.speed)];
     const own = isNarrow ? fits : say(texts, texts.automatic, { speed: fits });
     if (this.speed.options[0].text !== own) this.speed.options[0].text = own;
   }

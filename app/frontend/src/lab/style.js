@@ -1,45 +1,51 @@
 // The Lab's style. The layout depends on the width of the Lab, not of the window.
-import { dock, forFingers, numbers, shared } from "../controls/style.js";
+import { dock, forFingers, numbers, progress, shared } from "../controls/style.js";
 import { endRules } from "../ends.js";
 
 // The layout: the top and the answer side by side, the bar that controls the time directly below the top.
 const places = `
 .lab { display: grid; gap: 12px var(--gap); padding: 12px var(--gap) 8px; align-content: start;
-  --stage: clamp(390px, 100vh - 322px, 62cqw);
+  --stage: clamp(390px, var(--page, 100vh) - 322px, 62cqw);
   grid-template: "stage answer" calc(var(--stage) - 150px) "stage controls" 138px "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); }
 .stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
 .strip { grid-area: strip; min-width: 0; } .say { grid-area: say; min-width: 0; } .answer { grid-area: answer; min-width: 0; }
 .controls { grid-area: controls; min-width: 0; } .keeps { grid-area: answer; min-width: 0; display: none; overflow-x: auto; }
-.lab[data-table=three] { --stage: clamp(300px, 100vh - 458px, 40cqw);
+.lab[data-table=three] { --stage: clamp(300px, var(--page, 100vh) - 458px, 40cqw);
   grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say answer" auto "controls answer" auto / var(--side) minmax(0, 1fr); }
 .lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
 .lab[data-table=three] .body { display: none; }
 .lab[data-table=three] .outline { display: none; }
 /* With the research beside it, all is below the top. */
 .lab[data-level=research]:not([data-table=three]) { grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say say" auto "controls answer" auto / minmax(0, 1fr) minmax(0, 1fr);
-  --stage: clamp(300px, 100vh - 560px, 62cqw); }
+  --stage: clamp(300px, var(--page, 100vh) - 560px, 62cqw); }
 .lab[data-level=research] .answer { min-height: 300px; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
-    --stage: clamp(390px, 100vh - 400px, 62cqw); }
+    --stage: clamp(390px, var(--page, 100vh) - 400px, 62cqw); }
   .frame[data-large] .lab { --t-s: 20px; --t-m: 23px; --t-l: 32px; --touch: 48px; --side: 640px; --bar: 196px;
-    --stage: clamp(390px, 100vh - 470px, 62cqw); }
+    --stage: clamp(390px, var(--page, 100vh) - 470px, 62cqw); }
 }
-@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; --stage: clamp(390px, 100vh - 346px, 62cqw); } }
+@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; --stage: clamp(390px, var(--page, 100vh) - 346px, 62cqw); } }
 @container (max-width: 900px) { .lab { --side: 300px; } }
 @container (min-width: 701px) and (max-width: 1499px) {
-  .frame[data-large] .lab { --side: clamp(300px, 38cqw, 530px); --bar: 160px; --stage: clamp(440px, 100vh - 396px, 62cqw); }
-  .frame[data-large] .lab[data-table=three] { --stage: clamp(300px, 100vh - 540px, 40cqw); }
+  .frame[data-large] .lab { --side: clamp(300px, 38cqw, 530px); --bar: 160px; --stage: clamp(440px, var(--page, 100vh) - 396px, 62cqw); }
+  .frame[data-large] .lab[data-table=three] { --stage: clamp(300px, var(--page, 100vh) - 540px, 40cqw); }
 }
 @container (max-width: 700px) {
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
-  .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
+  .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(var(--top, 48px) * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
   .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link, .say .small .link { min-height: var(--touch); }
   .dock { order: 1; z-index: 3; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
   :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
 }
+`;
+
+// In a frame of another page: the top, the line and the controls.
+const framed = `
+.frame[data-framed] :is(.answer, .keeps, .numbers, .body, .outline, .say p:not(.small) .link) { display: none; }
+@container (min-width: 701px) { .frame[data-framed] .lab { --gap: 16px; grid-template: "stage controls" var(--stage) "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); } }
 `;
 
 const stage = `
@@ -100,7 +106,7 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 @container (max-width: 700px) {
   /* on the stage, and as long in sight as that */
   .strip { display: contents; } .strip .plot { height: 124px; margin: 0 16px; padding-top: 8px; flex: none; }
-  .starts, .paces { position: sticky; z-index: 3; top: calc(48px * var(--type, 1) + var(--stage) - 58px); height: 58px; margin-top: -58px; align-self: end; align-content: start; }
+  .starts, .paces { position: sticky; z-index: 3; top: calc(var(--top, 48px) * var(--type, 1) + var(--stage) - 58px); height: 58px; margin-top: -58px; align-self: end; align-content: start; }
   .stage, .starts, .paces { order: -1; } .starts { margin-right: 12px; } .paces { margin-right: 68px; } .clock, .again { display: none; } .speed { background: var(--ground); border-radius: 22px; padding: 0 10px; min-height: 44px; }
   .strip .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
   .lab[data-table=three] .strip { display: grid; grid-template: "starts paces" auto "plot plot" auto / auto 1fr; } .lab[data-table=three] .strip .plot { grid-area: plot; margin: 0; }
@@ -141,9 +147,7 @@ const controls = `
 .ends .mark { position: absolute; top: -6px; height: 20px; width: 2px; margin-left: -1px; background: var(--accent); }
 .ends .was { position: absolute; top: -4px; height: 18px; border-left: 2px dashed var(--ink); margin-left: -1px; }
 .launch { min-width: 116px; text-align: right; } .launch .primary { touch-action: none; user-select: none; -webkit-user-select: none; } .wait { display: flex; align-items: center; gap: 12px; } .wait .small { min-width: 4ch; font-variant-numeric: tabular-nums; } .wait .outline { min-height: 40px; }
-.wait progress { -webkit-appearance: none; appearance: none; width: 110px; height: 6px; border: 0; border-radius: 3px; overflow: hidden; background: var(--line); }
-.wait progress::-webkit-progress-bar { background: var(--line); } .wait progress::-webkit-progress-value { background: var(--ink); } .wait progress::-moz-progress-bar { background: var(--ink); }
-:is(.numbers, .body) { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } :is(.numbers, .body) summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } :is(.numbers, .body) summary::after { content: "+"; } :is(.numbers, .body)[open] summary::after { content: "−"; }
+${progress}:is(.numbers, .body) { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } :is(.numbers, .body) summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } :is(.numbers, .body) summary::after { content: "+"; } :is(.numbers, .body)[open] summary::after { content: "−"; }
 .body .ctl { margin-bottom: 8px; } .body + :is(.body, .numbers) { border-top: 0; }
 .numbers th { font-weight: 400; color: var(--ink-2); } .numbers td { text-align: right; padding-right: 0; } .numbers :is(th, td) { padding-block: 2px; }
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
@@ -160,4 +164,4 @@ const controls = `
 }
 `;
 
-export const style = [shared, numbers, places, stage, strip, answer, controls].join("");
+export const style = [shared, numbers, places, stage, strip, answer, controls, framed].join("");

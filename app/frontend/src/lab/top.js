@@ -25,7 +25,7 @@ export class Top {
     this.listeners = listeners;
     this.element = part("div", { class: "top" });
     const values = {
-      texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
+      texts, label, clock: time.name, now: undefined, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
       flick, tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
       get camera() { return camera; },
       set camera(chosen) {

@@ -3,7 +3,7 @@
 import { shared } from "../controls/style.js";
 
 const places = `
-.frame:focus { outline: 0; } .frame { --head: calc(48px * var(--type, 1)); scroll-margin-top: var(--head); }
+.frame:focus { outline: 0; } .frame { --head: calc(var(--top, 48px) * var(--type, 1)); scroll-margin-top: var(--head); }
 .lesson { display: grid; gap: 10px 24px; padding: 10px 24px 8px; --side: 520px; --stage: clamp(300px, 100vh - 380px, 62cqw);
   grid-template: "crumbs crumbs" auto "question question" auto "stage right" var(--stage) "bar right" auto "more more" auto / minmax(0, 1fr) var(--side); align-content: start; }
 .right { grid-area: right; display: flex; flex-direction: column; gap: 12px; min-width: 0; }

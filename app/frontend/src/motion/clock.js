@@ -17,6 +17,9 @@ export const timeOf = (clock = "") => leaderOf(clock)?.player.t ?? 0;
 /** The reports of the tops of a clock, for tests. @param {string} clock */
 export const topsOf = (clock) => on(clock).map((place) => place.report);
 
+/** The tops of a clock that have a motion, also out of sight. @param {string} clock */
+export const filmedOn = (clock) => on(clock).filter(({ picture, player }) => picture.clientWidth && player.frames.count);
+
 /** Pictures of the tops that are visible, together `wide` px wide. @param {number} wide */
 export function photosOf(wide) {
   const seen = [...clocks.values()].flat().filter(({ isSeen }) => isSeen);

@@ -1,5 +1,6 @@
 // A still picture of a stage for print: drawn again with the given width in px, and with its HTML labels.
 import { penOf } from "../data.js";
+import { paintWords } from "../paint.js";
 /** @import { Labels } from "./labels.js" */
 /** @import { Stage } from "./stage.js" */
 
@@ -10,22 +11,7 @@ export function photo(stage, labels, wide) {
   canvas.width = still.width;
   canvas.height = still.height;
   ink.drawImage(still, 0, 0);
-  ink.textAlign = "center";
-  ink.textBaseline = "middle";
-  ink.lineJoin = "round";
-  const holder = stage.holder.getBoundingClientRect();
-  for (const { element } of labels.all) {
-    if (element.style.display === "none") continue;
-    const box = element.getBoundingClientRect();
-    const { fontStyle, fontWeight, fontFamily, fontSize, color, textShadow } = getComputedStyle(element);
-    ink.font = `${fontStyle} ${fontWeight} ${scale * parseFloat(fontSize)}px ${fontFamily}`;
-    /** @type {[number, number]} */
-    const at = [scale * (box.x - holder.x + box.width / 2), scale * (box.y - holder.y + box.height / 2)];
-    ink.strokeStyle = textShadow.match(/^rgba?\([^)]*\)/)?.[0] ?? "white";
-    ink.lineWidth = 3 * scale;
-    ink.strokeText(element.textContent, ...at);
-    ink.fillStyle = color;
-    ink.fillText(element.textContent, ...at);
-  }
+  ink.scale(scale, scale);
+  for (const { element } of labels.all) paintWords(ink, element, stage.holder.getBoundingClientRect());
   return canvas;
 }

@@ -35,7 +35,10 @@ class Top {
     this.place = new Place({
       model, picture, report: this.report, changed,
       inView: () => stage.inView,
-      photo: (wide) => photo(stage, this.scene.labels, wide),
+      photo: (wide) => {
+        this.tick(performance.now(), true); // the screen may not show the present moment yet
+        return photo(stage, this.scene.labels, wide);
+      },
     });
     this.player = this.place.player;
     this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model);
@@ -102,7 +105,8 @@ class Top {
   tick(now, held) {
     if (!held && this.place.moves) this.eye.jumps = this.place.advance(now) || this.eye.jumps;
     this.pose();
-    this.eye.follow(now, this.player.playing);
+    const { now: filmed } = this.model;
+    this.eye.follow(filmed ?? now, filmed !== undefined || this.player.playing);
     this.drawing = this.received;
     return this.place.moves;
   }
