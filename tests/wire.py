@@ -275,7 +275,8 @@ async def left_if_it_fails(coroutine, seconds):
         return await asyncio.wait_for(coroutine, seconds)
     except BaseException:
         for visitor in OPEN:
-            visitor.socket.protocol.stream.close()
+            if visitor.socket.protocol:  # it has not left
+                visitor.socket.protocol.stream.close()
         raise
 
 

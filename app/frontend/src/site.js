@@ -33,6 +33,7 @@ class Site {
     this.step = "";
     this.look = { dark: null, large: false };
     this.said = /** @type {any} */ ({});
+    this.runs = /** @type {any} */ (null); // of the lesson
     /** @type {ReturnType<typeof drawIn>[]} */
     this.parts = [];
     this.looks = this.head = this.lab = this.lesson = /** @type {any} */ (null); // their models

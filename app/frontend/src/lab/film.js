@@ -23,10 +23,11 @@ export class Film {
   drawings = []; // the line before and after any of it was played, and the ring
   /** @param {import("../motion/filmed.js").Filmed} lab */
   constructor(lab) {
-    const { model, scene, time: { span } } = lab, { texts } = model;
+    const { model, scene, answer, time: { span } } = lab, { texts } = model;
     this.model = model;
     this.texts = texts;
     this.scene = { ...scene, waits: false };
+    this.isMapped = answer.name === "trace";
     const time = (this.time = new Time(() => {}, CLOCK)), nothing = () => {};
     this.stage = new Stage(texts, time, nothing, { camera: model.camera });
     this.strip = new Strip(texts, time);
@@ -46,7 +47,7 @@ export class Film {
     const { model, stage, strip, scene, frame } = this;
     document.body.append(this.place);
     this.unfollow = followLook(frame, () => frame.toggleAttribute("data-large", true));
-    stage.dress(model, scene.isOpen);
+    stage.dress(model, scene.isOpen, this.isMapped);
     for (const top of stage.tops) top.put({ playing: false, now: 0 });
     for (const shown of [stage, strip, this.words]) shown.show(scene);
     while (!strip.width || !filmedOn(CLOCK).length) await new Promise((done) => setTimeout(done)); // for their sizes
