@@ -31,8 +31,9 @@ VISITORS = 4
 # Whether a panel of the Lab has its content.
 CHOSEN = """panel => {
     const [doc] = Bokeh.documents, models = [...doc._all_models.values()]
-    const [group] = models.filter(({data}) => data?.parts?.includes('"panel"'))
-    return JSON.parse(group.data.state).values.panel == panel && doc.is_idle
+    const values = (options) => [...(options instanceof Map ? options.values() : Object.values(options))]
+    const [choice] = models.filter(({data}) => data?.options && values(data.options).includes(panel))
+    return choice.data.value == panel && doc.is_idle
 }"""
 # Whether a room has replaced the sentence that it is being created.
 STANDS = """([place, waits]) => {

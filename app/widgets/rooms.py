@@ -17,7 +17,7 @@ from app.widgets.failure import attempt
 from app.widgets.forms import Button
 
 AROUND = (24, 28)
-MOST = 12  # parts of the page that are created in one step; each takes some ms
+MOST = 60  # parts of the page that are created in one step: 0.1 to 0.4 s, of which 0.1 s is the step itself
 
 log = logging.getLogger("tippe")
 

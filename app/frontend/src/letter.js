@@ -28,7 +28,7 @@ export function drawIn(id, values, render) {
   el.style.height = "100%";
   (place.shadowRoot ?? place.attachShadow({ mode: "open" })).replaceChildren(el);
   render({ model, el, view: {} });
-  return { model, leave: () => void (model.remove = true) };
+  return { model, leave: () => void Object.assign(model, { remove: true }) };
 }
 
 /** @param {string} models JSON of their values, by the id of the element that holds the picture */

@@ -17,9 +17,10 @@ const STYLE = `.all { display: flex; flex-flow: row wrap; align-items: center; g
 // A codec of this kind that the browser can write; undefined if there is none, as on every page without TLS.
 /** @param {keyof typeof CODECS} kind */
 async function codecOf(kind) {
+  if (typeof VideoEncoder === "undefined") return undefined;
   for (const [codec, name] of Object.entries(CODECS[kind])) {
     const { width, height, rate } = HD, wish = { codec, width, height, framerate: rate, bitrate: 4e6 };
-    if ((await globalThis.VideoEncoder?.isConfigSupported(wish).catch(() => null))?.supported) return name;
+    if ((await VideoEncoder.isConfigSupported(wish).catch(() => null))?.supported) return name;
   }
   return undefined;
 }

@@ -8,11 +8,11 @@ const SAY_MS = 400; // words are spoken once they have not changed for this long
 const WRITING = "input, textarea, select, button, a[href], summary, [contenteditable=true], [role=slider], [role=tab], [role=option]";
 const KEYS = { " ": { toggle: true }, ArrowLeft: { step: -1 }, ArrowRight: { step: 1 } };
 
-const listOf = (texts) => `<dialog class="list" aria-labelledby="title"><h2 id="title">${texts.keys}</h2>
+const listOf = (texts) => `<dialog class="list" aria-labelledby="title"><h2 id="title" tabindex="-1">${texts.keys}</h2>
   <table>${texts.list.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
   <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>`;
 
-const statementOf = ({ statement: [[title, about], ...parts], close }) => `<dialog class="statement" aria-labelledby="statement"><h2 id="statement" tabindex="-1" autofocus>${title}</h2>
+const statementOf = ({ statement: [[title, about], ...parts], close }) => `<dialog class="statement" aria-labelledby="statement"><h2 id="statement" tabindex="-1">${title}</h2>
   ${paragraphs(about)}${parts.map(([heading, said]) => `<h3>${heading}</h3>${paragraphs(said)}`).join("")}<button class="close">${close}</button></dialog>`;
 const paragraphs = (said) => said.map((words) => `<p>${words}</p>`).join("");
 
@@ -73,7 +73,11 @@ export function renderGuide({ model }) {
   const part = (root, selector) => root.querySelector(selector);
   const dialogs = { keys: part(over, ".list"), statement: part(over, ".statement") };
   listen(Object.values(dialogs), tour, signal);
-  const ask = (/** @type {any} */ { detail }) => (detail === "tour" ? tour.begin(document.activeElement) : dialogs[detail].showModal());
+  const ask = (/** @type {any} */ { detail }) => {
+    if (detail === "tour") return tour.begin(document.activeElement);
+    dialogs[detail].showModal();
+    part(dialogs[detail], "h2").focus(); // a long statement is read from its title on
+  };
   window.addEventListener("tippe:guide", ask, { signal });
   for (const dialog of Object.values(dialogs)) {
     part(dialog, ".close").onclick = () => dialog.close();
