@@ -56,7 +56,7 @@ def classic(name, found):
 
 def values_of(part):
     """{parameter: value} of a component, for a page without a server."""
-    return {name: getattr(part, name) for name in set(type(part).param) - set(Bundled.param) | {"texts"}}
+    return {name: getattr(part, name) for name in type(part).param if name not in Bundled.param or name == "texts"}
 
 
 def as_json(found):

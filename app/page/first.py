@@ -20,7 +20,7 @@ from urllib.parse import urlencode
 
 import numpy as np
 
-from app.bundle import BUNDLE, Bundled, address_of, inlined, values_of
+from app.bundle import BUNDLE, Bundled, address_of, as_json, inlined, values_of
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state import opened as room
@@ -73,7 +73,7 @@ def words():
             view = arrival()
             kept = values_of(view)
         found[language] = {name: value for name, value in kept.items() if not isinstance(value, bytes)}
-    return json.dumps(found).replace("<", "\\u003c")
+    return as_json(found)
 
 
 def searches():
@@ -97,7 +97,7 @@ def variables(language):
     bundle = address_of(Bundled, BUNDLE)
     early = {"language": language, "bundle": bundle, "searches": searches(),
              "numbers": f"{address_of(Numbers, FILE)}?{urlencode({'v': version()})}"}  # fmt: skip
-    return {"bundle": bundle, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
+    return {"bundle": bundle, "first": words(), "early": as_json(early),
             "early_script": EARLY, "borrowed": BORROWED, "family": FAMILY, "waiting": waiting(language)}  # fmt: skip
 
 

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { nearestRow, rowBefore, spotInTurn, spotOf, timeAtPoint, timeAtTilt, valueAt } from "../../app/frontend/src/figures/curves.js";
+import { nearestRow, spotInTurn, spotOf, timeAtPoint, timeAtTilt, valueAt } from "../../app/frontend/src/figures/curves.js";
+import { rowBefore } from "../../app/frontend/src/data.js";
 import { beadAt } from "../../app/frontend/src/figures/run.js";
 import { sectionAt } from "../../app/frontend/src/figures/sections.js";
 import { near } from "./helping.js";

@@ -8,6 +8,19 @@ export function float32(bytes) {
   return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength >> 2);
 }
 
+// The last row whose time is not after now; the last but one at most. t may be unevenly spaced; width: numbers in a
+// row.
+/** @param {Column} t @param {number} now */
+export function rowBefore(t, now, width = 1) {
+  let low = 0, high = t.length / width - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (t[middle * width] <= now) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
 // Decodes base64.
 /** @param {string} text */
 export const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));

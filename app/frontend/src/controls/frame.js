@@ -19,6 +19,20 @@ export function frame({ model, el, view }, style, ...parts) {
   return made;
 }
 
+// Calls look whenever the part comes into sight; leave: what else ends with it.
+/** @param {Rendering<Model>} rendering @param {Element} element @param {() => void} look */
+export function whenSeen({ model, view }, element, look, leave = () => {}) {
+  const seeing = new IntersectionObserver(([{ isIntersecting }]) => isIntersecting && look()), { tippe } = view;
+  seeing.observe(element);
+  const dispose = () => {
+    seeing.disconnect();
+    leave();
+    tippe?.dispose();
+  };
+  model.on("remove", dispose);
+  view.tippe = { dispose };
+}
+
 // Shows now, and whenever one of these values changes.
 /** @param {Model} model @param {string[]} names @param {() => void} show */
 export function follow(model, names, show) {

@@ -24,19 +24,6 @@ export function spotInTurn(t, now) {
 /** @param {Column} values @param {Spot} spot */
 export const valueAt = (values, [row, share]) => values[row] + share * (values[row + 1] - values[row]);
 
-// The last row whose time is not after now; the last but one at most. t may be unevenly spaced; width: numbers in a
-// row.
-/** @param {Column} t @param {number} now */
-export function rowBefore(t, now, width = 1) {
-  let low = 0, high = t.length / width - 1;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (t[middle * width] <= now) low = middle;
-    else high = middle;
-  }
-  return low;
-}
-
 /** @param {Column} values @param {number} value */
 export const nearestRow = (values, value) =>
   values.reduce((best, _, row) => (Math.abs(values[row] - value) < Math.abs(values[best] - value) ? row : best), 0);

@@ -1,5 +1,6 @@
 // A run: lines at the time of the clock, and the top as a bead in its present well. Not synced.
-import { clamp, rowBefore, valueAt } from "./curves.js";
+import { rowBefore } from "../data.js";
+import { clamp, valueAt } from "./curves.js";
 import { followClock, isFollowed } from "./seeking.js";
 
 const quietly = (part, values) => part.setv(values, { sync: false });

@@ -1,5 +1,5 @@
 // One run over time, as numbers to draw: app/tabs/lab/lab.py says what each column contains.
-import { float32, niceAbove } from "../data.js";
+import { float32, niceAbove, rowBefore } from "../data.js";
 
 const WIDTH = 8;
 export const TABLES = ["ordinary", "rough", "ice"];
@@ -24,13 +24,8 @@ export class Curves {
   // The last row at or before t.
   /** @param {number} t */
   row(t) {
-    let low = 0, high = this.count - 1;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.value(middle, TIME) <= t) low = middle;
-      else high = middle;
-    }
-    return high > 0 && t >= this.value(high, TIME) ? high : low;
+    const last = this.count - 1;
+    return last > 0 && t >= this.value(last, TIME) ? last : rowBefore(this.rows, t, WIDTH);
   }
 
   // Interpolates between two rows; constant before the first and after the last.

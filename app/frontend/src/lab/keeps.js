@@ -1,5 +1,5 @@
 // For three tables: what each of them conserves, from the start to the present moment. Python says how far.
-import { rowBefore } from "../figures/curves.js";
+import { rowBefore } from "../data.js";
 import { float32 } from "../data.js";
 import { TABLES } from "./curves.js";
 import { drawn, part, say, written } from "./parts.js";

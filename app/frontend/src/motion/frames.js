@@ -1,6 +1,6 @@
 // The trajectory that Python computed, and interpolation between its samples.
 import { Quaternion, Vector3 } from "three";
-import { float32 } from "../data.js";
+import { float32, rowBefore } from "../data.js";
 
 // Columns of a row; app/widgets/top3d.py packs them in the same order.
 const WIDTH = 21;
@@ -9,6 +9,7 @@ const T = 0, QUATERNION = 1, CONTACT = 5, COM = 7, THETA = 10, FORCE = 11, OMEGA
 export class Frames {
   /** @param {Bytes} [bytes] @param {number} [azimuth] rad: if given, the motion is turned on the table so that it begins with the axis leaning that way */
   constructor(bytes, azimuth) {
+    this.bytes = bytes;
     this.rows = float32(bytes);
     this.count = Math.floor(this.rows.length / WIDTH);
     if (this.count && azimuth !== undefined) this.turn(azimuth);
@@ -58,15 +59,11 @@ export class Frames {
   // The position of t among the rows, as a fraction: 3.25 is a quarter of the way from row 3 to row 4.
   /** @param {number} t */
   place(t) {
-    let low = 0, high = this.count - 1;
+    const last = this.count - 1;
     if (!(t > this.time(0))) return 0;
-    if (t >= this.time(high)) return high;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.time(middle) <= t) low = middle;
-      else high = middle;
-    }
-    return low + (t - this.time(low)) / (this.time(high) - this.time(low));
+    if (t >= this.time(last)) return last;
+    const low = rowBefore(this.rows, t, WIDTH);
+    return low + (t - this.time(low)) / (this.time(low + 1) - this.time(low));
   }
 
   /** @param {number} t */

@@ -1,5 +1,6 @@
 // The trace: where the table touched the ball, in the body's axes, as carbon paper on the table would mark it.
 import { Vector3 } from "three";
+import { rowBefore } from "../data.js";
 import { centreOf, emptyPose } from "./frames.js";
 
 const ON = 2e-3; // R: this near to its surface the ball touches, and not the stem or nothing
@@ -13,8 +14,19 @@ const MOST = 16; // marks from one frame to the next, at most
  * @property {boolean[]} on whether there is a mark: elsewhere the ball does not touch
  */
 
-/** @param {import("./frames.js").Frames} frames @param {number | null} a as of centreOf() @returns {Trace} */
+/** @type {WeakMap<object, { a: number | null, trace: Trace }>} */
+const known = new WeakMap(); // of the bytes of a motion: the top and the map show the same one
+
+/** @param {import("./frames.js").Frames} frames @param {number | null} a as of centreOf() */
 export function traceOf(frames, a) {
+  const key = frames.bytes ?? frames;
+  let found = known.get(key);
+  if (found?.a !== a) known.set(key, (found = { a, trace: computed(frames, a) }));
+  return found.trace;
+}
+
+/** @param {import("./frames.js").Frames} frames @param {number | null} a @returns {Trace} */
+function computed(frames, a) {
   const pose = emptyPose(), next = emptyPose(), trace = /** @type {Trace} */ ({ places: [], marks: [], on: [] });
   const touches = (mark) => Math.abs(mark.length() - 1) < ON;
   const markAt = (place) => {
@@ -40,11 +52,6 @@ export function traceOf(frames, a) {
 // How many of the places have been passed.
 /** @param {Trace} trace @param {number} place */
 export function passedBy({ places }, place) {
-  let low = 0, high = places.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (places[middle] <= place) low = middle + 1;
-    else high = middle;
-  }
-  return low;
+  if (!(place >= places[0])) return 0;
+  return place >= places[places.length - 1] ? places.length : rowBefore(places, place) + 1;
 }

@@ -1,6 +1,6 @@
 // The axis of the top as seen on a film: a dashed line through the centre of the ball. Rows t, x, y, z, in units of the
 // top's time.
-import { float32 } from "../data.js";
+import { float32, rowBefore } from "../data.js";
 import { followLook } from "./scene.js";
 import { WideLine } from "./lines.js";
 /** @import { Stage } from "./stage.js" */
@@ -18,14 +18,8 @@ export function rowAt(rows, t) {
   const count = rows.length / WIDTH, time = (i) => rows[i * WIDTH];
   if (count < 2) return null;
   const usual = (time(count - 1) - time(0)) / (count - 1);
-  let low = 0, high = count - 1;
-  if (t < time(0) - usual || t > time(high) + usual) return null;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (time(middle) <= t) low = middle;
-    else high = middle;
-  }
-  const long = time(high) - time(low);
+  if (t < time(0) - usual || t > time(count - 1) + usual) return null;
+  const low = rowBefore(rows, t, WIDTH), long = time(low + 1) - time(low);
   return long > GAP * usual ? null : [low, Math.min(Math.max((t - time(low)) / (long || 1), 0), 1)];
 }
 

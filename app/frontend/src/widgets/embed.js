@@ -1,7 +1,7 @@
 // The code to copy, and how it would look; or why no other page may show this one.
 import { part } from "./parts.js";
 import { copyText } from "./copy.js";
-import { follow, frame } from "../controls/frame.js";
+import { follow, frame, whenSeen } from "../controls/frame.js";
 import { fill, penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
 
@@ -13,7 +13,7 @@ textarea { font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1
 
 /** @param {Rendering<EmbedModel>} rendering */
 export function renderEmbed(rendering) {
-  const { model, view } = rendering, { texts } = model, others = model.frames.split(/\s+/).filter((each) => each && !["'self'", "'none'"].includes(each));
+  const { model } = rendering, { texts } = model, others = model.frames.split(/\s+/).filter((each) => each && !["'self'", "'none'"].includes(each));
   const area = part("textarea", { readonly: true, rows: 4, spellcheck: "false", "aria-label": texts.title, hidden: !others.length, onfocus: () => area.select() });
   const copy = part("button", { type: "button", class: "outline", hidden: !others.length, onclick: async () => {
     await copyText(model.code, area);
@@ -33,13 +33,6 @@ export function renderEmbed(rendering) {
     Object.assign(preview, { width: SMALL, height: Math.max(...pictures.map(({ height }) => height)) });
     pictures.forEach((picture, i) => penOf(preview).drawImage(picture, (i * SMALL) / pictures.length, 0));
   };
-  const seeing = new IntersectionObserver(([{ isIntersecting }]) => isIntersecting && look()), { tippe } = view;
-  seeing.observe(all);
+  whenSeen(rendering, all, look);
   follow(model, ["code"], () => (area.value = model.code));
-  const dispose = () => {
-    seeing.disconnect();
-    tippe?.dispose();
-  };
-  model.on("remove", dispose);
-  view.tippe = { dispose };
 }

@@ -1,7 +1,7 @@
 // The film of the Lab in Share: a button for each kind of file that this browser can write, the stretch that is filmed,
 // and while it is made, how far that is, and a button that stops it.
 import { renderStretch } from "../controls/stretch.js";
-import { frame } from "../controls/frame.js";
+import { frame, whenSeen } from "../controls/frame.js";
 import { progress } from "../controls/style.js";
 import { part, say } from "../lab/parts.js";
 import { HIGH, labInSight, timesOf, WIDE } from "../motion/filmed.js";
@@ -142,16 +142,10 @@ class Films {
 
 /** @param {Rendering<FilmModel>} rendering */
 export function renderFilm(rendering) {
-  const { model, view } = rendering, films = new Films(rendering), { tippe } = view;
-  const seeing = new IntersectionObserver(([{ isIntersecting }]) => isIntersecting && !films.making && films.look());
-  seeing.observe(films.said.parentElement);
-  model.on("anew", () => !films.making && films.look());
-  const leave = () => {
+  const films = new Films(rendering), look = () => !films.making && films.look();
+  whenSeen(rendering, films.said.parentElement, look, () => {
     films.stopped = true;
-    seeing.disconnect();
     films.inner.tippe?.dispose();
-    tippe?.dispose();
-  };
-  model.on("remove", leave);
-  view.tippe = { dispose: leave };
+  });
+  rendering.model.on("anew", look);
 }

@@ -1,7 +1,6 @@
 // The lines of the derivation: each equation, the present values of its two sides, and the symbols that can be pointed
 // at.
-import { local } from "../data.js";
-import { rowBefore } from "../figures/curves.js";
+import { local, rowBefore } from "../data.js";
 import { style } from "./lines_style.js";
 
 const DRAWN_MS = 200; // ms between two updates of the numbers
