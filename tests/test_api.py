@@ -195,6 +195,10 @@ def test_the_state_at_a_time_goes_on_as_the_motion_does():
     np.testing.assert_allclose(again.theta, moved.theta[200:], rtol=0, atol=1e-8)
     np.testing.assert_allclose(again.com, moved.com[200:], rtol=0, atol=1e-8)
     assert moved.at(2.005).theta == pytest.approx(moved.theta[200:202].mean(), abs=1e-12)
+    assert moved.at(2.0).z is None
+    flies = slide(PAPER, State(0.6, 0.4, 1.0, 9.0, vx=0.3, z=1.6, vz=0.5), Viscous(0.3), times[:150], rtol=1e-11)
+    again = slide(PAPER, flies.at(0.4), Viscous(0.3), times[40:150], rtol=1e-11)
+    np.testing.assert_allclose(again.com, flies.com[40:], rtol=0, atol=1e-8)
     with pytest.raises(TopError, match="0 to 4"):
         moved.at(4.1)
 

@@ -79,6 +79,16 @@ def test_the_energy_rises_by_no_more_than_the_work_and_is_kept_or_rubbed_away_af
     assert len(motion.pushes) == 2
 
 
+@pytest.mark.parametrize("table", ["ordinary", "rough", "ice"])
+def test_an_upright_top_goes_where_it_is_pushed(table):
+    """Along x of the table, however far it has turned."""
+    asleep = start_of(TOY, 28.65, 0.0, 0.3)
+    motion = motion_on(table, replace(asleep, pushes=(Push(1.0, (0.0, 0.0, 10.0), (0.5, 0.0, 0.0)),)))
+    [(_, row, _)] = motion.pushes
+    x, y = np.diff(motion.trajectory.com[row : row + 2, :2], axis=0)[0]
+    assert x > 0 and abs(y) < 0.2 * x
+
+
 @pytest.mark.parametrize("up", [-0.3, 0.2, 1.0])
 def test_the_rough_table_grips_it_again_and_gives_no_torque_about_the_point_that_touches(up):
     push = SOFT._replace(impulse=(0.5, -0.6, up))  # also one that would lift it off

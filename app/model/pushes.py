@@ -5,6 +5,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from app.model.motion import PUSHED, Progress, sliding_of
 from app.model.setup import Push, Setup
@@ -13,6 +14,7 @@ from tippe_core import Friction, State, TopError, Trajectory, Viscous, pushed
 from tippe_core.types import Array, Rim
 
 STRONGEST = 2.0  # M (gR)^1/2: some three times what knocks a toy over
+UPRIGHT = 1e-4  # below this sine of the tilt 1' is x for a push, as in three/flick.js: phi alone is no angle there
 
 
 def size_words(push: Push) -> str:
@@ -39,19 +41,13 @@ def state_after(start: Setup, moved: Trajectory, push: Push, friction: Friction,
     """The State after a push at the last instant of a motion. Raises TopError."""
     if push.size > (most := STRONGEST * start.impulse):
         raise TopError("push", push.size, "at most {most:.10g} in size", code="too-large", most=most)
-    state = state_of(moved, len(moved) - 1)
+    state = moved.at(moved.t[-1])
     c, s = np.cos(state.theta), np.sin(state.theta)
     x, y, z = np.array(push.point) / (1e3 * start.scales.R)
-    place = [x, c * y - s * z, s * y + c * z]
-    return pushed(start.top, state, np.array(push.impulse) / start.impulse, place, friction, edge)
-
-
-def state_of(moved: Trajectory, i: int) -> State:
-    """The State at one instant of a motion, also in flight."""
-    state = moved.at(moved.t[i])
-    if [on for since, on in moved.supports if since <= moved.t[i]][-1] != "none":
-        return state
-    return replace(state, z=float(moved.com[i, 2]), vz=float(moved.velocity[i, 2]))
+    place, impulse = np.array([x, c * y - s * z, s * y + c * z]), np.array(push.impulse) / start.impulse
+    if s < UPRIGHT:
+        place, impulse = (Rotation.from_euler("z", -state.phi).apply(vector) for vector in (place, impulse))
+    return pushed(start.top, state, impulse, place, friction, edge)
 
 
 def joined(first: Trajectory | None, then: Trajectory) -> Trajectory:

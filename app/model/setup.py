@@ -48,7 +48,7 @@ Toy: TypeAlias = str | Shape | Top
 
 class Push(NamedTuple):
     """A push of a top that moves: at t (s) an impulse (mN s, along x, y, z, which turn with phi) at a point of the body
-    (mm from O along 1', 2', 3)."""
+    (mm from O along 1', 2', 3); of an upright top 1' is x."""
 
     t: float
     point: tuple[float, float, float]

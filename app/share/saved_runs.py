@@ -10,7 +10,7 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from app.model.life import pushed_rows
 from app.model.phases import carried
-from app.model.pushes import push_words, state_of
+from app.model.pushes import push_words
 from app.model.regimes import OF_CORE
 from app.model.setup import Setup
 from app.share import export, glb, prints
@@ -170,7 +170,7 @@ def run_python(shown):
     """Python whose `motion` is the trajectory; that from its last push on if it is pushed."""
     setup, names = shown.setup, "theta theta_dot omega2 omega3 phi psi x y vx vy z vz".split()
     pushed, times = pushed_rows(shown.trajectory)[-1:], setup.times
-    begins = state_of(shown.trajectory, pushed[0]) if pushed else setup.state
+    begins = shown.trajectory.at(shown.trajectory.t[pushed[0]]) if pushed else setup.state
     given = {name: getattr(begins, name) for name in names}
     state = ", ".join(f"{name}={float(value)!r}" for name, value in given.items() if value is not None)
     first = float(shown.trajectory.t[pushed[0]]) if pushed else 0
