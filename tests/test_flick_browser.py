@@ -70,7 +70,7 @@ def test_keys_push_it_and_what_is_too_strong_is_said_and_changes_nothing(lab):
     page, start = found.page, found.lab.start
     at(page, 0.5)
     canvas = page.locator(".top canvas").first
-    canvas.press("Control+Shift+ArrowUp")
+    canvas.press("Alt+Shift+ArrowUp")
     found.until(lambda: len(start.pushes) == 1)
     pushes, canvas_box = start.pushes, canvas.bounding_box()
     assert pushes[0].point[:2] == (0.0, 0.0) and pushes[0].impulse[2] == 0.0

@@ -51,6 +51,14 @@ def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
     assert rested == [TILT, 12.0]
 
 
+def test_a_push_too_many_is_answered_and_the_others_stay(tab):
+    for count in (12, 13):
+        said = wish(tab, count, "pushes", "~".join(f"{0.1 * i:.1f}_0_0_10_.01_0_0" for i in range(1, count + 1)))
+    assert "up to 12 pushes" in said["messages"]["pushes"] and said["answered"] == 13
+    assert len(tab.lab.start.pushes) == 12
+    assert not wish(tab, 14, "pushes", "")["messages"]
+
+
 def test_inertias_that_no_body_has_leave_what_is_shown(tab):
     before = shown(tab)
     tab.lab.start.I3 = 2.0  # typed at the level "Research"

@@ -2,7 +2,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
-import { along, turnsOf } from "../../app/frontend/src/three/flick.js";
+import { pushesIn } from "../../app/frontend/src/lab/flick.js";
+import { turnsOf } from "../../app/frontend/src/three/flick.js";
+import { along, inSpace } from "../../app/frontend/src/three/impulse.js";
 
 const z = new Vector3(0, 0, 1), near = (found, wanted) => found.forEach((value, i) => assert.ok(Math.abs(value - wanted[i]) < 1e-12, `${found}`));
 
@@ -13,6 +15,7 @@ test("a vector is given along the axes that turn with the top", () => {
   near(along(z, axis, z), [0, 0, 1]);
   near(along(axis, axis, axis), [0, 0, 1]);
   near(along(z, axis, axis), [0, Math.sin(theta), Math.cos(theta)]); // 2' rises with the tilt
+  for (const third of [z, axis]) near(inSpace(along(new Vector3(1, 2, 3), axis, third), axis, third).toArray(), [1, 2, 3]);
 });
 
 test("upright, 1' is x", () => near(along(new Vector3(1, 2, 3), z, z), [1, 2, 3]));
@@ -22,4 +25,12 @@ test("a flick the way that the point turns spins it that way, along its axis not
   assert.ok(turns(0, 1, 0) > 0 && turns(0, -1, 0) === -turns(0, 1, 0));
   assert.equal(turns(0, 0, 1), 0);
   assert.equal(turns(0, 2, 0), 2 * turns(0, 1, 0));
+});
+
+test("the pushes of a run are read in R and M (gR)^1/2, with their sizes", () => {
+  const texts = { push_units: ["{size} mN s", "{size} N s"], decimal: "," };
+  const [one, other] = pushesIn(texts, { R: 15, impulse: 2, of: { pushes: [".5_0_3_15_.6_-.8_0~2_0_0_0_0_0_3000"] } });
+  assert.deepEqual([one.t, one.point, one.impulse, one.said], [0.5, [0, 0.2, 1], [0.3, -0.4, 0], "1,00 mN s"]);
+  assert.equal(other.said, "3,00 N s");
+  assert.deepEqual(pushesIn(texts, { R: 15, impulse: 2, of: { pushes: [""] } }), []);
 });

@@ -43,6 +43,9 @@ interface Hand {
   saidTurns(turns: number): string;
 }
 
+// A push of a run: its time (s), the point from O in R along 1', 2', 3, the impulse in M (gR)^1/2 along x, y, z, and its size.
+type Pushed = { t: number; point: number[]; impulse: number[]; said: string };
+
 // An earlier run, shown beside the present one.
 type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
 
@@ -51,6 +54,7 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   degrees?: boolean; // the text of the handle
   letGo?(): void; // called when the axis is released
   flick?: Hand;
+  pushes?: Pushed[];
   frames: Bytes;
   profile: Bytes;
   mu_s: number;

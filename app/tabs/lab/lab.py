@@ -18,7 +18,7 @@ from app.model.lab.allowed import LIMITS, SHOWN
 from app.model.lab.examples import EXAMPLES
 from app.model.lab.lab import FIRST, Lab
 from app.model.pushes import push_words
-from app.model.setup import OF_LAW, shape_of
+from app.model.setup import MOST_SECONDS, OF_LAW, shape_of
 from app.state import asked
 from app.state.codecs import Pushes
 from app.state.names import LEVELS
@@ -134,7 +134,7 @@ class LabTab:
                 raise asked.Unasked(value)
             self._lab.ask(**EXAMPLES[value])
         elif name == "pushes":
-            self._lab.ask(pushes=self._pushes(value))
+            self._push(asked.text(value))
         elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
             self._tried[name], self._wrong, self._near = value, {}, {}
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
@@ -148,12 +148,15 @@ class LabTab:
         elif self._looks == looks:  # else the run itself, or the next look at it, will show it
             self._wait(SOON)
 
-    @staticmethod
-    def _pushes(value):
+    def _push(self, text):
+        """Pushes the top, or says how often it can be pushed."""
         try:
-            return Pushes.value(asked.text(value))
-        except ValueError as error:
-            raise asked.Unasked(value) from error
+            pushes = Pushes.value(text)
+        except ValueError:
+            self._wrong = {"pushes": say("lab.pushed.most", most=Pushes.MOST, seconds=MOST_SECONDS)}
+            return
+        self._wrong = {}
+        self._lab.ask(pushes=pushes)
 
     def _of_body(self, name, value):
         """The inputs of the Lab for a dimension of the body, in its unit; none, and a sentence at that input, if there

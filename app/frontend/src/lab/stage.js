@@ -2,6 +2,7 @@
 // doing, and how fast it turns.
 import { thenAt } from "./before.js";
 import { latest, TABLES, TILT, TURNING } from "./curves.js";
+import { pushesIn } from "./flick.js";
 import { Choice, drawn, part, say } from "./parts.js";
 import { Told } from "./told.js";
 import { SPEEDS } from "./time.js";
@@ -78,14 +79,14 @@ export class Stage {
     this.scene = scene;
     this.choice.show(table);
     this.told.show(scene);
-    const { bytes: profile, a, unit: seconds, before } = scene;
+    const { bytes: profile, a, unit: seconds, before } = scene, pushes = pushesIn(texts, state);
     this.tops.forEach((top, i) => {
       const shown = three === i > 0;
       this.places[i].hidden = !shown;
       if (!shown) return top.put({ frames: null }); // a stage without frames costs nothing
       const was = !i && before ? { frames: before.frames[before.table], profile: before.bytes, a: before.a, seconds: before.unit } : null;
       if (was?.frames !== top.model.before?.frames) top.put({ before: was });
-      top.put({ profile, a, seconds, frames: scene.frames[three ? TABLES[i - 1] : table] });
+      top.put({ profile, a, seconds, pushes, frames: scene.frames[three ? TABLES[i - 1] : table] });
       if (this.element.isConnected) top.begin();
     });
     TABLES.forEach((name, i) => this.captions[i].replaceChildren(...(three ? this.caption(name) : [])));

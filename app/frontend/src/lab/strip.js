@@ -155,21 +155,22 @@ export class Strip {
   // What happened and when, above the curve.
   events() {
     const { scene, texts } = this;
-    if (scene.table === "three") return [];
     const { size } = this, isPush = ([, code]) => Number(code === "push"); // which finds its place first
+    const three = scene.table === "three", all = (three ? TABLES : [scene.table]).flatMap((name) => scene.runs[name]?.events ?? []);
     /** @type {any} */
-    const events = [...(scene.runs[scene.table]?.events ?? [])].sort((one, other) => isPush(other) - isPush(one));
+    const events = three ? [] : [...all].sort((one, other) => isPush(other) - isPush(one));
     const when = (t) => say(texts, "{t} s", { t: [t, 1] });
     const lines = events.map(([t, , word, short]) => [this.x(t), `${word} ${when(t)}`, `${short} ${when(t)}`]);
     const words = placed(lines, -GAP, this.width, (word) => LETTER * size * word.length);
-    return words.flatMap(({ x, word, side, row }) => {
+    const alone = [...new Set(all.filter(isPush).map(([t]) => this.x(t)))].filter((each) => words.every(({ x }) => x !== each)); // without room
+    return alone.map((x) => drawn("line", { class: "event", x1: x, x2: x, y1: this.top, y2: this.bottom })).concat(words.flatMap(({ x, word, side, row }) => {
       const cut = word.lastIndexOf(" ", word.length - 3), down = 1.2 * size * row;
       return [
         drawn("line", { class: "event", x1: x, x2: x, y1: 4 + down, y2: this.bottom }),
         drawn("text", { x: side === "start" ? x + 5 : x - 5, y: 14 + down, "text-anchor": side },
           drawn("tspan", { class: "word" }, word.slice(0, cut)), word.slice(cut)),
       ];
-    });
+    }));
   }
 
   // A small top, tilted as in the middle of each long stage, where the curve leaves room.

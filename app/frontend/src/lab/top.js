@@ -26,7 +26,7 @@ export class Top {
     this.element = part("div", { class: "top" });
     const values = {
       texts, label, clock: time.name, now: undefined, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
-      flick, tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
+      flick, pushes: [], tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
       get camera() { return camera; },
       set camera(chosen) {
         camera = chosen.length ? chosen : first;

@@ -2,59 +2,44 @@
 // the plane of the picture. At rest, a flick along the turn of the stem spins it. How far the flick goes is how strong
 // it is, not how fast: a slow hand can do it too. Keys push at the middle of its axis.
 import { Raycaster, Vector2, Vector3 } from "three";
-import { Arrow } from "./arrow.js";
-import { colours } from "../colours.js";
+import { along, PUSH, up } from "./impulse.js";
+/** @import { Impulse } from "./impulse.js" */
 /** @import { Stage } from "./stage.js" */
 /** @import { TopScene } from "./top_scene.js" */
 /** @import { Player } from "../motion/player.js" */
 
 const LEAST = 8; // px: a shorter flick is none
-const PUSH = 0.4, KEY_PUSH = 0.25; // M (gR)^1/2: for a flick that is as long as R, and of a key
+const KEY_PUSH = 0.25; // M (gR)^1/2
 const TURNS = 30; // rev/s for one as long as R
 const STILL = 0.02; // (g/R)^1/2: with less it is at rest
-const UPRIGHT = 1e-4; // below this sine of the tilt, 1' is where Python has it at a pole
 const KEYS = { ArrowUp: [0, 1], ArrowLeft: [-1, 0], ArrowDown: [0, -1], ArrowRight: [1, 0] }; // to the right, and away
-const up = new Vector3(0, 0, 1);
-
-// A vector in space along the axes that turn with the top: 1', and the one that with it and `third` is right-handed.
-/** @param {Vector3} vector @param {Vector3} axis of the top @param {Vector3} third z, or the axis @returns {[number, number, number]} */
-export function along(vector, axis, third) {
-  const first = Math.hypot(axis.x, axis.y) > UPRIGHT ? new Vector3(-axis.y, axis.x, 0).normalize() : new Vector3(1, 0, 0);
-  return [vector.dot(first), vector.dot(third.clone().cross(first)), vector.dot(third)];
-}
 
 // The spin (rev/s) of a flick at a point, seen from a point of the axis: as far as it goes the way that the point turns.
 /** @param {Vector3} flick @param {Vector3} axis @param {Vector3} point */
 export const turnsOf = (flick, axis, point) => TURNS * flick.dot(axis.clone().cross(point).normalize());
 
 export class Flick {
-  /** @param {Stage} stage @param {TopScene} scene @param {Player} player @param {Hand} hand */
-  constructor(stage, scene, player, hand) {
+  /** @param {Stage} stage @param {TopScene} scene @param {Player} player @param {Hand} hand @param {Impulse} impulse */
+  constructor(stage, scene, player, hand, impulse) {
     const canvas = stage.renderer.domElement;
     this.stage = stage;
     this.scene = scene;
     this.player = player;
     this.hand = hand;
     this.ray = new Raycaster();
+    this.impulse = impulse;
     this.from = /** @type {number[] | null} */ (null); // where a hand is on the top, px
-    this.point = new Vector3(); // in space, and in the body
-    this.mark = new Vector3();
-    this.vector = new Vector3();
-    this.arrow = new Arrow(colours.accent, { radius: 0.04, through: 0.85 });
-    this.label = scene.labels.add("", "point");
-    this.label.shift = [0, -32];
-    stage.scene.add(this.arrow);
-    this.hide();
+    this.mark = new Vector3(); // there, in the body
+    this.waits = false; // whether the motion has still to go on from a push
+    this.said = "";
     const capture = { capture: true }; // before the camera hears of it
     stage.holder.addEventListener("pointerdown", (event) => event.target === canvas && this.press(event), capture);
+    // A finger that is on the top pushes it up and down too; elsewhere it scrolls the page.
+    stage.holder.addEventListener("touchstart", (event) => this.from && event.cancelable && event.preventDefault(), { passive: false });
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", () => this.letGo());
     for (const end of ["pointercancel", "lostpointercapture"]) canvas.addEventListener(end, () => this.cancel());
     canvas.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  get axis() {
-    return up.clone().applyQuaternion(this.scene.body.quaternion);
   }
 
   get spins() {
@@ -79,14 +64,14 @@ export class Flick {
     if (!point) return;
     this.stage.controls.enableRotate = false;
     this.from = [event.clientX, event.clientY];
-    this.mark.copy(this.scene.body.worldToLocal(this.point.copy(point).clone()));
-    this.vector.set(0, 0, 0);
+    this.mark.copy(this.scene.body.worldToLocal(this.impulse.point.copy(point).clone()));
+    this.impulse.vector.set(0, 0, 0);
     this.hand.hold(true);
   }
 
   /** @param {PointerEvent} event */
   move(event) {
-    const { from, stage: { camera, height, renderer }, point, vector } = this, column = (i) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i);
+    const { from, stage: { camera, height, renderer }, impulse: { point, vector } } = this, column = (i) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i);
     if (!from) {
       if (!event.buttons) renderer.domElement.style.cursor = this.touched(event) ? "grab" : "";
       return;
@@ -99,30 +84,24 @@ export class Flick {
   }
 
   get turns() {
-    return turnsOf(this.vector, this.axis, this.point.clone().sub(this.scene.body.position));
+    const { vector, axis, point } = this.impulse;
+    return turnsOf(vector, axis, point.clone().sub(this.scene.body.position));
   }
 
   /** @param {string} said */
   show(said) {
-    const { arrow, label, stage } = this;
-    this.place();
-    arrow.visible = label.visible = Boolean(arrow.drawable);
-    if (label.element.textContent !== said) label.element.textContent = said;
-    stage.invalidate();
-  }
-
-  place() {
-    const { arrow, label, point, vector: { x, y, z } } = this;
-    arrow.point(point, x, y, z, label.at);
+    this.said = said;
+    this.impulse.show(said);
+    this.stage.invalidate();
   }
 
   letGo() {
-    const { vector, hand } = this, { spins, turns } = this;
+    const { impulse: { vector }, hand, spins, turns } = this;
     if (!this.from || !vector.length()) return this.cancel();
     this.end();
     if (spins) {
       hand.hold(false);
-      this.hide();
+      this.impulse.hide();
       hand.spin(turns);
     } else this.push(vector.clone().multiplyScalar(PUSH));
   }
@@ -130,7 +109,8 @@ export class Flick {
   // The picture is held until it goes on from there.
   /** @param {Vector3} impulse in M (gR)^1/2 */
   push(impulse) {
-    const { axis, point, scene: { body } } = this;
+    const { impulse: { axis, point }, scene: { body } } = this;
+    this.waits = true;
     this.hand.push(along(point.clone().sub(body.position), axis, axis), along(impulse, axis, up));
   }
 
@@ -142,35 +122,32 @@ export class Flick {
   cancel() {
     if (!this.from) return;
     this.end();
-    this.hide();
+    this.impulse.hide();
     this.hand.hold(false);
-  }
-
-  hide() {
-    this.arrow.visible = this.label.visible = false;
   }
 
   /** @param {KeyboardEvent} event */
   key(event) {
-    const way = event.ctrlKey && event.shiftKey && KEYS[event.key], { stage: { camera }, scene: { body }, vector } = this;
+    const way = event.altKey && event.shiftKey && KEYS[event.key], { stage: { camera }, scene: { body }, impulse: { axis, point, vector } } = this;
     if (event.key === "Escape" && this.from) this.cancel();
-    if (!way || event.metaKey || event.altKey || this.from || !body.visible || event.repeat) return;
+    if (!way || event.metaKey || event.ctrlKey || this.from || !body.visible || event.repeat) return;
     event.preventDefault();
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).setZ(0).normalize(), away = up.clone().cross(right);
     vector.set(0, 0, 0).addScaledVector(right, way[0]).addScaledVector(away, way[1]).multiplyScalar(KEY_PUSH);
-    this.point.copy(this.axis).multiplyScalar(((body.top ?? 1) - 1) / 2).add(body.position);
+    point.copy(axis).multiplyScalar(((body.top ?? 1) - 1) / 2).add(body.position);
     this.hand.hold(true);
     this.push(vector);
     vector.multiplyScalar(1 / PUSH);
     this.show(this.hand.saidSize(KEY_PUSH));
   }
 
-  // The arrow stays until the motion goes on.
+  // Whether the arrow is that of the hand: until the motion goes on.
   follow() {
-    if (this.from) {
-      this.scene.body.updateMatrixWorld();
-      this.scene.body.localToWorld(this.point.copy(this.mark));
-      this.place();
-    } else if (!this.player.held) this.hide();
+    this.waits &&= Boolean(this.player.held);
+    if (!this.from) return this.waits;
+    this.scene.body.updateMatrixWorld();
+    this.scene.body.localToWorld(this.impulse.point.copy(this.mark));
+    this.impulse.show(this.said);
+    return true;
   }
 }

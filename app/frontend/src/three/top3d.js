@@ -8,6 +8,7 @@ import { Flick } from "./flick.js";
 import { renderFlat } from "../figures/flat.js";
 import { Ghost } from "./ghost.js";
 import { Handle } from "./handle.js";
+import { Impulse } from "./impulse.js";
 import { Measured } from "./measured.js";
 import { photo } from "./photo.js";
 import { colourOf, wordOf } from "../regimes.js";
@@ -44,7 +45,8 @@ class Top {
     this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model);
     this.ghost = model.before === undefined ? null : new Ghost(stage);
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
-    this.flick = model.flick ? new Flick(stage, this.scene, this.player, model.flick) : null;
+    this.impulse = model.pushes ? new Impulse(stage, this.scene) : null;
+    this.flick = model.flick && this.impulse ? new Flick(stage, this.scene, this.player, model.flick, this.impulse) : null;
     this.bar = new Bar(root, picture, model, this.player, () => {
       model.camera = [];
       this.look();
@@ -117,7 +119,7 @@ class Top {
     scene.pose(frames, place, model, this.highlight);
     const { regime, theta } = scene.moment;
     this.handle?.follow(scene.body, theta, some, playing);
-    this.flick?.follow();
+    if (!this.flick?.follow()) this.impulse?.replay(model.pushes ?? [], this.player.t * model.seconds, model.speed);
     this.ghost?.follow(this.player.t, model.seconds);
     this.measured?.follow(scene.body, this.player.t);
     this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
