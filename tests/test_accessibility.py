@@ -38,8 +38,8 @@ def test_who_runs_the_page_is_named(monkeypatch):
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_no_key_of_the_page_is_one_of_a_screen_reader(language):
-    """Letters only with Alt or Ctrl, which NVDA's own keys have not; and never Control with Option, VoiceOver's, or with
-    an arrow, also with Shift: macOS's Mission Control."""
+    """Letters only with Alt or Ctrl, which NVDA's own keys have not; and never Control with Option, VoiceOver's, or
+    with an arrow, also with Shift: macOS's Mission Control."""
     for keys, _ in listed("browser.Guide.list", language):
         for key in keys.lower().split(", "):
             name, *held = reversed(key.partition(" in ")[0].split("+"))

@@ -12,13 +12,16 @@ from test_lab_hands_browser import SEEK, middle
 pytestmark = pytest.mark.served
 
 SAID = re.compile(r"[\d.]+")
+TOUCH = "canvas => !canvas.dispatchEvent(new TouchEvent('touchstart', { bubbles: true, cancelable: true }))"
 
 
 def flicked(page, across, down=0):
     """What is said at the arrow of a flick, before it is let go; the top stays where it is meanwhile."""
     x, y = middle(page.locator(".top canvas").first)
     page.mouse.move(x, y + 20)
+    assert not page.locator(".top canvas").first.evaluate(TOUCH)  # a finger would scroll the page
     page.mouse.down()
+    assert page.locator(".top canvas").first.evaluate(TOUCH)
     page.mouse.move(x + across / 2, y + 20 + down / 2)
     page.mouse.move(x + across, y + 20 + down)
     label = page.locator(".labels .point").filter(has_text=SAID).first
@@ -63,6 +66,11 @@ def test_a_flick_spins_a_top_at_rest_and_pushes_one_that_moves(lab):
     assert np.linalg.norm(push.point) == pytest.approx(R, rel=0.02) and abs(height) < R  # on the ball
     page.get_by_role("button", name="Pause").wait_for()  # it goes on from there
     expect(page.get_by_role("status").filter(has_text="You pushed it at 0.50 s")).to_be_visible()
+    pause(page)
+    arrow = page.locator(".labels .point").filter(has_text=said).first
+    for t, is_seen in ((0.4, False), (0.51, True), (2.0, False)):
+        at(page, t)
+        expect(arrow).to_be_visible(visible=is_seen)
 
 
 def test_keys_push_it_and_what_is_too_strong_is_said_and_changes_nothing(lab):
