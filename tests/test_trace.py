@@ -4,14 +4,19 @@ import io
 
 import numpy as np
 import pandas as pd
+import pygltflib
 import pytest
 import sliding_body as sb
+from matplotlib.figure import Figure
+from scipy.spatial.transform import Rotation
+from test_export import array
 
 from app.model.lab.traced import turns_back
 from app.model.run import motion_on, whole_on
 from app.model.setup import start_of
+from app.share import prints
 from app.share.export import motion_csv
-from app.share.saved_runs import Shown, run_csv
+from app.share.saved_runs import Shown, run_csv, run_glb
 from app.tabs.lab.words import trace_words
 from tippe_core import State, Top, Viscous, slide
 
@@ -86,6 +91,31 @@ def test_the_saved_tables_have_it(explorer_scene):
         path = np.stack([table[f"{axis} ({'m' if size != 1 else 'R'})"] for axis in "xy"], axis=1)
         lengths = [np.linalg.norm(np.diff(each, axis=0), axis=1).sum() for each in (marks, path)]
         assert lengths[0] == pytest.approx(lengths[1], rel=0.02)  # it rolls: as far on the ball as on the table
+
+
+def test_on_the_saved_animation_each_mark_is_above_the_table_where_it_touches():
+    start = start_of("The paper's tippe top", 12.0, 25.0, 0.3)
+    moved, R = motion_on("rough", start).trajectory, start.scales.R
+    gltf = pygltflib.GLTF2.load_from_bytes(run_glb(Shown("rough", moved, start), 4.0))
+    [node] = [node for node in gltf.nodes if node.name == "trace on the ball"]
+    assert gltf.nodes.index(node) in next(node for node in gltf.nodes if node.name == "top").children
+    primitive = gltf.meshes[node.mesh].primitives[0]
+    ends = array(gltf, primitive.attributes.POSITION)
+    parts = len(ends) // (len(moved) - 1)
+    assert primitive.mode == 1 and parts * (len(moved) - 1) == len(ends)
+    translation, rotation = (array(gltf, sampler.output) for sampler in gltf.animations[0].samplers)
+    marks = Rotation.from_quat(rotation[:-1]).apply(ends[::parts]) + translation[:-1]
+    np.testing.assert_allclose(marks[:, :2], R * moved.contact[:-1], atol=1e-5 * R)
+    assert np.all(marks[:, 2] < 0) and np.all(marks[:, 2] > -0.01 * R)  # a little above the ball
+
+
+@pytest.mark.parametrize("tilt", [30, 60, 120, 150])
+def test_on_the_printed_caps_a_mark_is_on_the_ring_of_its_tilt(tilt):
+    angle, both, upper = np.radians([tilt - 0.5, tilt + 0.5]), Figure().subplots(2), tilt > 90
+    prints._caps(both, np.stack([np.sin(angle), 0 * angle, -np.cos(angle)], axis=1))
+    [drawn] = both[int(upper)].collections[0].get_segments()
+    [ring] = [text.get_position()[1] for text in both[int(upper)].texts if text.get_text() == f"{tilt}°"]
+    assert drawn.mean(axis=0) == pytest.approx([abs(ring) if upper else -abs(ring), 0.0])  # seen from outside
 
 
 @pytest.fixture

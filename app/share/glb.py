@@ -5,16 +5,19 @@ import struct
 
 import numpy as np
 
+from app.model.lab.traced import pieces
 from app.share.export import parameters
 
 AROUND = 48  # points around each ring of the body
 GLTF_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 FLOAT, UNSIGNED, ARRAY, ELEMENTS = 5126, 5125, 34962, 34963
+OVER = 1.006  # R from O: so that the ball does not hide the trace
 PAINT = ((0.72, 0.45, 0.20), (0.95, 0.90, 0.80))  # wood, in two tones, so that the rotation is visible
 
 
 def animation_glb(scene, slower=16.0, said=None, name="rolling"):
-    """The trajectory as a glTF 2.0 binary (bytes): the body, its track and the table, in m, y up.
+    """The trajectory as a glTF 2.0 binary (bytes): the body with the trace on it, its track and the table, in m, y
+    up.
 
     slower: how many times longer than the real motion the animation takes; this is also in the asset's extras. scene: a
     Scene, or an object with the same attributes, such as saved_runs.Shown; said: its parameters; name: that of the
@@ -25,7 +28,9 @@ def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     points, normals, colours, corners = _revolved(scene.profile * R)
     body = file.mesh("the top", points, normals, colours, corners)
     track = np.column_stack([motion.contact * R, np.full(len(motion.t), 1e-3 * R)])
-    path = file.line("track of the contact", track, (0.0, 0.447, 0.698, 1.0))
+    path = file.line("track of the contact", track)
+    marks = np.repeat(pieces(motion.trace), 2, axis=1)[:, 1:-1].reshape(-1, 3)  # both ends of each part
+    line = [{"name": "trace on the ball", "mesh": file.line("the trace", OVER * R * marks, 1)}] if len(marks) else []
     middle, half = _around(track[:, :2], 3 * R)
     square = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half + middle
     table = file.mesh(
@@ -58,9 +63,10 @@ def animation_glb(scene, slower=16.0, said=None, name="rolling"):
         "scenes": [{"nodes": [0]}],
         "nodes": [
             {"name": "z up", "rotation": upright, "children": [1, 2, 3]},
-            {"name": "top", "mesh": body},
+            {"name": "top", "mesh": body} | ({"children": [4]} if line else {}),
             {"name": "track", "mesh": path},
             {"name": "table", "mesh": table},
+            *line,
         ],
         "animations": [
             {
@@ -108,9 +114,10 @@ class _Gltf:
         material = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.6}, "doubleSided": True}
         return self._add(name, material, attributes=attributes, indices=self.accessor(corners, ELEMENTS))
 
-    def line(self, name, points, colour):
-        material = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "baseColorFactor": list(colour)}}
-        return self._add(name, material, attributes={"POSITION": self.accessor(points, ARRAY, bounds=True)}, mode=3)
+    def line(self, name, points, mode=3):
+        """A line through these points; with mode 1 lines between two of them each."""
+        material = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "baseColorFactor": [0.0, 0.447, 0.698, 1.0]}}
+        return self._add(name, material, attributes={"POSITION": self.accessor(points, ARRAY, bounds=True)}, mode=mode)
 
     def _add(self, name, material, **primitive):
         self._materials.append(material)

@@ -9,6 +9,7 @@ import io
 import numpy as np
 
 from app.model.colours import COLOURS, FAINT, INK
+from app.model.lab.traced import pieces
 from app.model.roll import portraits
 from app.text import listed, say
 
@@ -45,15 +46,19 @@ def draw(scene, name, kind):
     return file.getvalue()
 
 
-def curves(seconds, rows, words, kind):
-    """Curves {quantity: values} over the time in s, above two lines of words, as the bytes of a file."""
+def curves(seconds, rows, words, trace, kind):
+    """Curves {quantity: values} over the time in s, the trace (n, 3) beside them, above two lines of words, as the
+    bytes of a file."""
     import matplotlib
     from matplotlib.figure import Figure
 
     with matplotlib.rc_context(FONT):
         figure, file = Figure(figsize=(WIDTH, 5.0), layout="constrained"), io.BytesIO()
         figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88))
-        for axes, (named, values) in zip(np.ravel(figure.subplots(len(rows), sharex=True)), rows.items(), strict=True):
+        left, right = figure.subfigures(1, 2, width_ratios=(2, 1))
+        right.suptitle(say("lab_view.view.answers.trace.question"), fontsize=8)
+        _caps(right.subplots(2), trace)
+        for axes, (named, values) in zip(np.ravel(left.subplots(len(rows), sharex=True)), rows.items(), strict=True):
             axes.plot(seconds, values, color=INK, linewidth=0.9)
             if np.ptp(values) < 1e-6 * np.abs(values).max():  # a conserved quantity is not to look like noise
                 axes.set_ylim(*sorted((0, 1.2 * values[0])))
@@ -65,6 +70,28 @@ def curves(seconds, rows, words, kind):
         metadata = {"Title": say("main.title")} | ({"Date": None} if kind == "svg" else {})
         figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
     return file.getvalue()
+
+
+def _caps(both, trace):
+    """The ball's surface as two caps, as in lab/caps.js, with the trace of the contact."""
+    from matplotlib.collections import LineCollection
+    from matplotlib.patches import Circle
+
+    x, y, z = np.moveaxis(pieces(trace), 2, 0)
+    out = np.hypot(x, y)
+    for axes, side, named in zip(both, (-1, 1), listed("lab_view.view.answers.trace.caps"), strict=True):
+        tilt = np.degrees(np.arctan2(out, side * z))
+        scale = tilt / np.where(out > 0, out, 1)
+        lines = np.stack([side * x * scale, y * scale], axis=2)[tilt.min(axis=1) < 90]  # both as seen from outside
+        axes.add_collection(LineCollection(lines, colors=COLOURS["theta"], linewidths=0.7))
+        for ring in (30, 60, 90):
+            axes.add_patch(Circle((0, 0), ring, fill=False, color=INK if ring == 90 else FAINT, linewidth=0.6))
+            if ring < 90:
+                axes.text(0, -ring, f"{90 + side * (90 - ring)}°", ha="center", va="center", fontsize=7,
+                          bbox={"color": "white", "pad": 0.5})  # fmt: skip
+        axes.set(xlim=(-93, 93), ylim=(-93, 93), aspect="equal")
+        axes.axis("off")
+        axes.set_title(named, fontsize=8, y=-0.09)
 
 
 def _page(scene, height, title):

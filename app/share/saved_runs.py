@@ -111,8 +111,9 @@ def run_glb(shown, slower):
 
 
 def run_print(shown, kind):
-    """The tilt, the normal force and the energy of a run over time, as the bytes of a "png" or "svg" file."""
-    return prints.curves(*drawn(shown), kind)
+    """The tilt, the normal force and the energy of a run over time, and its trace, as the bytes of a "png" or "svg"
+    file."""
+    return prints.curves(*drawn(shown), shown.trajectory.trace[: _first_nods(shown) or None], kind)
 
 
 def drawn(shown):

@@ -6,9 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from tippe_core import Trajectory
+from tippe_core.types import Array
 
 FROM, TO = np.radians(45), np.radians(135)  # between these tilts it is near the equator
 LEAST = 0.25  # rad: nutation moves the contact to and fro by less
+ON, PARTS = 1e-4, 3  # R: so near to its surface the ball touches; parts of a piece of the trace
 
 
 class Back(NamedTuple):
@@ -34,3 +36,12 @@ def turns_back(moved: Trajectory) -> Back | None:
         if len(angle) and angle[top] - max(angle[0], angle[-1]) > LEAST:
             return Back(float(theta[top]), runs_with)
     return None
+
+
+def pieces(trace: Array) -> Array:
+    """(k, PARTS + 1, 3): the trace (n, 3) from each instant at which the ball touches to the next, along great circles
+    of the ball."""
+    on = np.abs(np.linalg.norm(trace, axis=1) - 1) < ON
+    ends = np.stack([trace[:-1], trace[1:]], axis=1)[on[:-1] & on[1:]]
+    along = ends[:, :1] + np.diff(ends, axis=1) * np.linspace(0, 1, PARTS + 1)[:, None]
+    return along / np.linalg.norm(along, axis=2, keepdims=True)
