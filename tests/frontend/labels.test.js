@@ -26,6 +26,12 @@ test("a text is placed where its point appears", () => {
   label.shift = [12, -7];
   labels.place();
   near(placeOf(label), [112, 143], 0.06);
+  label.margin = 40; // of one that stays within the picture
+  for (const [at, seen] of [[[0, 60, 0], [360, 93]], [[0, 0, -90], [212, 160]]]) {
+    label.at.set(...at);
+    labels.place();
+    near(placeOf(label), seen, 0.06);
+  }
 });
 
 test("a text behind the camera, or an invisible one, is hidden", () => {

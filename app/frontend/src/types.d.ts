@@ -14,7 +14,7 @@ type Pose = Record<"contact" | "com" | "force" | "omega" | "momentum", import("t
 };
 
 // A text at a point in space; shift: its offset from there, in px.
-type Label = { element: HTMLElement; at: import("three").Vector3; shift: [number, number]; visible: boolean };
+type Label = { element: HTMLElement; at: import("three").Vector3; shift: [number, number]; visible: boolean; margin: number };
 
 // What a text points at, shown alone: a vector along the turning axes 1', y, z, from G or from the contact.
 type Pointed = { label: string; start: "com" | "contact"; vector: [number, number, number] };

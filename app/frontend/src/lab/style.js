@@ -75,7 +75,7 @@ const stage = `
 .caption b, .caption .does { color: var(--scene-ink, #1d2733); }
 
 .unseen { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
-.missing { position: absolute; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
+.missing { position: absolute; pointer-events: none; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
 @container (max-width: 700px) {
   .on { left: 8px; right: 8px; top: 8px; gap: 4px; } .switch > b { display: none; } .seg button { padding: 0 9px; min-height: 44px; }
   .on > select { max-width: none; flex: 1; min-height: 50px; }

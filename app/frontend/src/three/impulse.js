@@ -32,7 +32,7 @@ export class Impulse {
     this.vector = new Vector3(); // of the arrow, in R
     this.arrow = new Arrow(colours.accent, { radius: 0.04, through: 0.85 });
     this.label = scene.labels.add("", "point");
-    this.label.shift = [0, -32];
+    Object.assign(this.label, { shift: [0, -32], margin: 40 }); // px from the edge of the picture, where the tip is outside
     stage.scene.add(this.arrow);
     this.hide();
   }

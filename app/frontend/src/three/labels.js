@@ -24,7 +24,7 @@ export class Labels {
     element.style.display = "none"; // until it has a position
     this.layer.append(element);
     /** @type {Label} */
-    const label = { element, at: new Vector3(), shift: [0, 0], visible: true };
+    const label = { element, at: new Vector3(), shift: [0, 0], visible: true, margin: -Infinity };
     this.all.push(label);
     return label;
   }
@@ -32,13 +32,14 @@ export class Labels {
   place() {
     const { camera, width, height } = this.stage;
     camera.updateMatrixWorld();
-    for (const { element, at, shift, visible } of this.all) {
+    const within = (x, most, margin) => Math.max(Math.min(x, most - margin), margin);
+    for (const { element, at, shift, visible, margin } of this.all) {
       projected.copy(at).project(camera);
       const shown = visible && Math.abs(projected.z) < 1;
       element.style.display = shown ? "" : "none";
       if (!shown) continue;
-      const x = ((projected.x + 1) / 2) * width + shift[0];
-      const y = ((1 - projected.y) / 2) * height + shift[1];
+      const x = within(((projected.x + 1) / 2) * width + shift[0], width, margin);
+      const y = within(((1 - projected.y) / 2) * height + shift[1], height, margin);
       element.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
   }
