@@ -200,7 +200,8 @@ def test_what_a_browser_may_send_of_them_is_bounded():
 
 @pytest.mark.parametrize(("push", "says"), [
     (Push(2.0, (0.0, 0.0, 5.0), (9.0, 0.0, 0.0)), "up to 4.6 mN s; 9 mN s are too many"),
-    (Push(2.0, (0.0, 0.0, 60.0), (0.1, 0.0, 0.0)), "from below the table"),
+    (Push(0.1, (0.0, 0.0, -16.0), (0.1, 0.0, 0.0)), "from below the table"),
+    (Push(2.0, (0.0, 0.0, -60.0), (0.1, 0.0, 0.0)), "60 mm from the middle of the ball, and the top reaches"),
 ])  # fmt: skip
 def test_a_push_that_cannot_be_says_what_is_possible_and_all_else_stays(push, says):
     lab = lab_of(Start(**arrives()))

@@ -14,6 +14,7 @@ from tippe_core import Friction, State, TopError, Trajectory, Viscous, pushed
 from tippe_core.types import Array, Rim
 
 STRONGEST = 2.0  # M (gR)^1/2: some three times what knocks a toy over
+ROUNDED = 1e-3  # relative: a page writes a point with some digits
 UPRIGHT = 1e-4  # below this sine of the tilt 1' is x for a push, as in three/flick.js: phi alone is no angle there
 
 
@@ -41,9 +42,12 @@ def state_after(start: Setup, moved: Trajectory, push: Push, friction: Friction,
     """The State after a push at the last instant of a motion. Raises TopError."""
     if push.size > (most := STRONGEST * start.impulse):
         raise TopError("push", push.size, "at most {most:.10g} in size", code="too-large", most=most)
+    R, far = 1e3 * start.scales.R, float(np.linalg.norm(push.point))
+    if far > (most := R * float(np.linalg.norm(start.profile, axis=1).max())) * (1 + ROUNDED):
+        raise TopError("at", far, "at most {most:.10g} from O", code="too-large", most=most)
     state = moved.at(moved.t[-1])
     c, s = np.cos(state.theta), np.sin(state.theta)
-    x, y, z = np.array(push.point) / (1e3 * start.scales.R)
+    x, y, z = np.array(push.point) / R
     place, impulse = np.array([x, c * y - s * z, s * y + c * z]), np.array(push.impulse) / start.impulse
     if s < UPRIGHT:
         place, impulse = (Rotation.from_euler("z", -state.phi).apply(vector) for vector in (place, impulse))

@@ -48,9 +48,10 @@ def refusal(error: TopError) -> str:
     """Why a start, or a push, is impossible."""
     if error.code in ("stem-below-table", "body-below-table"):
         return say(f"lab.refused.{error.code}", tilt=error.value, most=error.numbers["most"])
-    if error.name == "push":
-        return say(f"lab.pushed.{error.code}", value=error.value, **error.numbers)
-    return say("lab.pushed.below") if error.name == "at" else why_not(error)
+    if error.name not in ("push", "at"):
+        return why_not(error)
+    of_point = "off-body" if error.code == "too-large" else "below"
+    return say(f"lab.pushed.{error.code if error.name == 'push' else of_point}", value=error.value, **error.numbers)
 
 
 def nearest(name: str, value: object) -> float | None:
