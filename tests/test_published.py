@@ -1,20 +1,26 @@
 """What others published: the steps that miss the sticking, the numbers of Learn, and the links into the explorer."""
 
+import json
 import re
 from dataclasses import replace
+from html import unescape
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
+from panel.pane import HTML
 
 from app.model import published, tell
 from app.model.fixed_steps import in_steps
+from app.model.lab.lab import Lab
 from app.model.run import on
+from app.model.runs import Runs
 from app.model.setup import TOYS
 from app.state import names
 from app.state.keep import explorer_of, read
-from app.tabs.learn.published import EXPLANATIONS, LAWS, RESULTS
+from app.tabs.lab.lab import LabTab
+from app.tabs.learn.published import EXPLANATIONS, LAWS, RESULTS, Steps, published_view
 from app.text import LANGUAGES, listed
 from tippe_core import Coulomb, State, Top, glide, slide, thresholds
 
@@ -74,6 +80,15 @@ def test_a_link_opens_what_its_row_is_of(link):
         assert getattr(explorer, name) == float(texts[name])
 
 
+def test_learn_shows_each_row_with_its_link():
+    """And the curves with theirs, once they have been computed."""
+    view = published_view(Runs())
+    shown = unescape("".join(str(part.object) for part in view.select(HTML)))
+    assert [link for link in LINKS if link not in shown] == [names.link(**LAWS["coulomb"])]
+    [steps] = view.select(Steps)
+    assert [curve["link"] for curve in steps.curves[:3]] == [names.link(**texts) for texts in LAWS.values()]
+
+
 def test_the_presets_are_the_tops_of_the_rows():
     """MuJoCo's own numbers of its model; what the others state, in kg m^2."""
     tops = {name: TOYS[name].shape for name in TOYS}
@@ -93,7 +108,8 @@ def test_the_presets_are_the_tops_of_the_rows():
 def test_what_is_opened_does_what_the_row_says():
     def opened(name, texts=RESULTS):
         explorer = explorer_of(read(names.link(**texts[name]))[0])[0]
-        run = on(replace(explorer.setup, seconds={"cohen": 2.0, "exudyn": 16.0}.get(name, 7.0)), "ordinary").trajectory
+        seconds = {"cohen": 2.0, "exudyn": 16.0, "threshold": 40.0}.get(name, 7.0)
+        run = on(replace(explorer.setup, seconds=seconds), "ordinary").trajectory
         return run.theta.max(), [event for _, event in run.events]
 
     assert opened("cohen")[0] == pytest.approx(3.05, abs=0.05) and opened("lighter")[0] == pytest.approx(2.12, abs=0.01)
@@ -102,6 +118,24 @@ def test_what_is_opened_does_what_the_row_says():
     assert opened("threshold")[1] == [] and opened("exudyn")[0] == pytest.approx(np.radians(127), abs=0.1)
     assert "lifts off" in opened("leaves")[1] and opened("mujoco")[0] > 3.1
     assert np.radians(90) < opened("ueda")[0] < np.radians(130) < np.pi
+
+
+@pytest.mark.parametrize(
+    "toy, spin, more, caught",
+    [
+        ("Cohen's top", 15.915, {}, True),
+        ("Cohen's top", 15.915, {"table": "three"}, True),
+        ("MuJoCo's tippe top", 31.8, {}, True),
+        ("Cohen's top", 15.915, {"law": "smoothed"}, False),
+        ("Cohen's top", 1.0, {}, False),  # too slow to rise with any friction
+        ("Wooden cone", 40.0, {"tilt": 15.0}, False),  # which sets itself upright
+    ],
+)
+def test_only_of_a_top_that_would_rise_it_is_asked_why_it_does_not(toy, spin, more, caught):
+    tab = LabTab(Lab(), lambda: None)
+    tab._lab.show()
+    tab._lab.ask(**{"toy": toy, "spin": spin, "tilt": 5.73, "law": "coulomb", "mu": 0.3, "mu_s": 0.3} | more)
+    assert json.loads(tab.view.told)["caught"] is caught
 
 
 @pytest.mark.slow

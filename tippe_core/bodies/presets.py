@@ -89,6 +89,6 @@ PRESETS = (
     Preset(
         "The Ghent group's top", BareSphere(R=0.015, M=0.006, a=1 / 5, I1=82 / 135, I3=14 / 27),
         "Animations of M.-C. Ciocci, B. Malengier, B. Langerock and B. Grimonprez: 6 g, 15 mm, I₁ = 8.2·10⁻⁷ and "
-        "I₃ = 7·10⁻⁷ kg m², friction 0.3. Its a/R is not stated: 0.2, as of Leine and Glocker's toy, is our choice. Their "
-        "top turns over, which needs more than 0.17."),
+        "I₃ = 7·10⁻⁷ kg m², friction 0.3. Its a/R is not stated: 0.2, as of Leine and Glocker's toy, is our choice. "
+        "Their top turns over, which needs more than 0.17."),
 )  # fmt: skip

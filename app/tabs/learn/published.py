@@ -112,12 +112,12 @@ def published_view(runs):
         f"<h3 style='margin: 0'>{say(f'published.results.{name}.what')}</h3><p style='margin: 2px 0'>"
         f"{say(f'published.results.{name}.theirs')}</p>"
         + opened(f"<b>{say('published.page.here')}</b> {say(f'published.results.{name}.ours')}", texts)
-        for name, texts in published.RESULTS.items()
+        for name, texts in RESULTS.items()
     )
     explanations = "".join(
         f"<h3 style='margin: 0'>{say(f'published.explanations.{name}.said')}</h3>"
         + opened(say(f"published.explanations.{name}.but"), texts)
-        for name, texts in published.EXPLANATIONS.items()
+        for name, texts in EXPLANATIONS.items()
     )
 
     def carded(key, *parts):
