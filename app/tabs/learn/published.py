@@ -39,7 +39,7 @@ RESULTS = {
     "lighter": _opens("BareSphere_.025_.015_.2_.4_.32", *COHENS[1:], "smoothed", eps=".1"),
     "mujoco": _opens("MuJoCo's tippe top", "31.831", ".573", "smoothed", mu_k="1", eps=".1"),
     "threshold": _opens("Top S", "11.937", "5.7296", "viscous", gamma=".1329"),
-    "leaves": _opens("Top S", "31.831", "5.7296", "viscous", gamma=".1329"),
+    "leaves": _opens("Top S", "31.831", "5.7296", "viscous", gamma=".1329", panel="time"),
     "leine": _opens(*TOYS_OWN),
     "friedl": _opens("Friedl's first top", *TOYS_OWN[1:]),
     "ueda": _opens("BareSphere_.025_.015_.1_.4_.3", *COHENS[1:], "smoothed", eps=".1"),
