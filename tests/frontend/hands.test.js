@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { awayFromTieline, gripAt, REACH } from "../../app/frontend/src/plane/grips.js";
 import { isFollowed } from "../../app/frontend/src/figures/seeking.js";
 import { modelOf } from "../../app/frontend/src/letter.js";
-import { stepOf } from "../../app/frontend/src/widgets/address.js";
+import { inLook, stepOf } from "../../app/frontend/src/widgets/address.js";
 import { figures, rowAt, said } from "../../app/frontend/src/widgets/lines.js";
 import { beside } from "../../app/frontend/src/widgets/tour.js";
 import { markOf } from "../../app/frontend/src/widgets/phone.js";
@@ -86,4 +86,11 @@ test("the words of the tour are beside their place if there is room, and always 
   assert.deepEqual(beside(box(10, 500, 990, 790), words, page), { left: 14, top: 286 });
   const { left, top } = beside(box(10, 10, 990, 790), words, page); // it fills the window
   assert.ok(left >= 0 && left + words.wide <= page.wide && top >= 0 && top + words.high <= page.high);
+});
+
+test("a link of the page keeps its language, its look and its frame, and nothing else of it", () => {
+  const here = "?v=4&spin=9&lang=de&dark=yes&frame=1";
+  assert.equal(inLook("?v=4&tab=learn", here), "?v=4&tab=learn&lang=de&dark=yes&frame=1");
+  assert.equal(inLook("?v=4&tab=learn&lang=en", here), "?v=4&tab=learn&lang=en&dark=yes&frame=1");
+  assert.equal(inLook("?v=4&body=Ball_.02_.04", ""), "?v=4&body=Ball_.02_.04");
 });

@@ -42,8 +42,8 @@ PRESETS = (
         "in the body whose lengths are given there.", Top.paper()),
     Preset(
         "Top S", BareSphere(R=0.02, M=0.02, a=0.3, I1=131 / 350, I3=2 / 5),
-        "Simulations of the tippe top by Rauch-Wojciechowski and Rutstam (N. Rutstam, arXiv:1306.2470), with "
-        "g = 9.82 m/s². A sphere whose inside is not told; the bracket of (26) is 0."),
+        "Simulations of the tippe top by Rauch-Wojciechowski and Rutstam (SIGMA 10, 017 (2014), "
+        "arXiv:1306.2470), with g = 9.82 m/s². A sphere whose inside is not told; the bracket of (26) is 0."),
     Preset(
         "Loaded sphere", LoadedSphere(R=0.02, b=0.008, d=0.010, density=1190.0, core_density=7850.0),
         "The form of the paper's Fig. 2; dimensions our own: an acrylic ball 40 mm across with a steel ball of 16 mm."),
@@ -73,5 +73,22 @@ PRESETS = (
         "Leine and Glocker's toy", StemmedSphere(R=0.015, M=0.006, a=1 / 5, I1=16 / 27, I3=14 / 27, r=0.005, h=0.013),
         "R. I. Leine and Ch. Glocker, Eur. J. Mech. A/Solids 22, 193 (2003): 6 g, a ball of 15 mm radius 3 mm above G "
         "and a stem that ends in one of 5 mm, 16 mm above G; I₁ = 8·10⁻⁷, I₃ = 7·10⁻⁷ kg m². They let it slide with "
-        "a friction of 0.3 on a patch of 0.5 mm radius."),
+        "a friction of 0.3 on a patch of 0.5 mm radius. It is also the second example of Friedl 1997."),
+    Preset(
+        "Cohen's top", BareSphere(R=0.025, M=0.015, a=0.2, I1=0.4, I3=0.4),
+        "R. J. Cohen, Am. J. Phys. 45, 12 (1977), Fig. 5: 15 g, a ball of 25 mm radius, G 5 mm below its middle, "
+        "I₁ = I₃ = 0.4. He let it slide with Coulomb's friction, 0.3, at 100 rad/s and 0.1 rad."),
+    Preset(
+        "MuJoCo's tippe top", BareSphere(R=0.02, M=0.0554745694, a=0.271579, I1=0.573941, I3=0.578216),
+        "The Python tutorial of MuJoCo, 200 rad/s, friction 1; mass, G and moments of inertia as MuJoCo computes them "
+        "from its parts: a ball of 20 mm radius, a stem and a ballast. Here the stem does not touch."),
+    Preset(
+        "Friedl's first top", StemmedSphere(R=0.015, M=0.006, a=1 / 5, I1=2 / 3, I3=14 / 27, r=0.005, h=0.013),
+        "C. Friedl, Der Stehaufkreisel, thesis, Augsburg (1997), chapter 4: Leine and Glocker's toy, but for "
+        "I₁ = 9·10⁻⁷ kg m². His second example is that toy itself."),
+    Preset(
+        "The Ghent group's top", BareSphere(R=0.015, M=0.006, a=1 / 5, I1=82 / 135, I3=14 / 27),
+        "Animations of M.-C. Ciocci, B. Malengier, B. Langerock and B. Grimonprez: 6 g, 15 mm, I₁ = 8.2·10⁻⁷ and "
+        "I₃ = 7·10⁻⁷ kg m², friction 0.3. Its a/R is not stated: 0.2, as of Leine and Glocker's toy, is our choice. "
+        "Their top turns over, which needs more than 0.17."),
 )  # fmt: skip

@@ -11,7 +11,7 @@ from app.model.pushes import push_words
 from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.typeset import power
-from tippe_core import Coulomb
+from tippe_core import Coulomb, outcome
 
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # A smaller drift is numerical error; physics changes a quantity by more.
@@ -81,10 +81,12 @@ def notes(scene):
 
 
 def is_caught(motion):
-    """Whether Coulomb's law at a point held the top before it was past 90 degrees, and it rolls on."""
-    if not isinstance(motion.start.friction, Coulomb):
+    """Whether Coulomb's law at a point held the top before it was past 90 degrees, so that it rolls on, although by its
+    energy it would rise if it went on slipping."""
+    start, moved = motion.start, motion.trajectory
+    if not isinstance(start.friction, Coulomb) or moved.regime[-1] != "roll" or not np.isnan(moved.time_90):
         return False
-    return bool(motion.trajectory.regime[-1] == "roll" and np.isnan(motion.trajectory.time_90))
+    return outcome(start.top, start.state).verdict in ("turns over", "hangs")
 
 
 # ---- what friction does to the ball alone, and how predictable a run is ----

@@ -31,8 +31,7 @@ export class Words {
     this.next.hidden = !this.to;
     if (this.to) this.next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[this.to]} →`));
     const isLifted = scene.table === "three" || (scene.run?.events ?? []).some(([, code]) => code === "over");
-    const isCaught = scene.state.caught && scene.table === "ordinary";
-    this.lesson.textContent = isCaught ? texts.more.caught : (isLifted && texts.whys[scene.table]) || "";
+    this.lesson.textContent = scene.state.caught ? texts.more.caught : (isLifted && texts.whys[scene.table]) || "";
     this.said = undefined;
     this.compared.textContent = scene.before?.compared ?? "";
   }

@@ -17,12 +17,15 @@ export function renderSteps({ model, el }) {
 
   function show() {
     const steps = model.curves.filter(({ step }) => step), laws = model.curves.filter(({ step }) => !step);
-    label.hidden = list.hidden = !steps.length;
-    if (!steps.length) return;
+    label.hidden = !steps.length;
+    if (label.hidden) return list.replaceChildren(part("li", {}, said.working));
     range.max = String(steps.length - 1);
-    const present = steps[Number(range.value)], curves = [...laws, present];
+    const present = steps[Number(range.value)];
+    // legible on dark, too
+    const curves = [...laws, present].map((curve) => ({ ...curve, colour: `color-mix(in srgb, ${curve.colour} 65%, var(--ink))` }));
     chosen.textContent = range.ariaValueText = say(texts, said.milliseconds, { step: [present.step, 0] });
-    list.replaceChildren(...curves.map(({ name, says, colour, dash }) => part("li", {}, swatch(colour, dash), part("span", {}, part("b", {}, `${name}: `), says))));
+    list.replaceChildren(...curves.map(({ name, says, link, colour, dash }) => part("li", {}, swatch(colour, dash),
+      part("span", {}, part("b", {}, `${name}: `), says, " ", link && part("a", { href: link }, texts.open)))));
     graph.show({ step: { picture: "graph", end: 0, graph: { x: said.x, y: said.y, of: "x", curves: curves.map((curve) => ({ ...curve, word: "" })), points: model.points } },
       record: { asked: false, seen: Infinity }, tops: [0] });
   }

@@ -92,7 +92,7 @@ const present = `
 
 const steps = `
 .steps .picture { max-height: none; padding: 0; } .steps .picture .plot { height: 260px; flex: none; }
-.step { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 12px; margin: 8px 0; } .step input { flex: 1; min-width: 120px; min-height: var(--touch); accent-color: var(--accent); } .step output { min-width: 4em; font-weight: 600; }
+.step { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 12px; margin: 8px 0; } .step span { flex-basis: 100%; } .steps a { color: var(--accent); } .step input { flex: 1; min-width: 120px; min-height: var(--touch); accent-color: var(--accent); } .step output { min-width: 4em; font-weight: 600; }
 .steps ul { list-style: none; margin: 0; padding: 0; display: grid; gap: 4px; } .steps li { display: flex; gap: 8px; align-items: baseline; } .steps .swatch { flex: none; width: 26px; height: 8px; }
 `;
 

@@ -16,6 +16,16 @@ export function stepOf({ key, ctrlKey, metaKey, altKey, shiftKey }) {
   return letter === "z" ? "undone" : null;
 }
 
+// What a link within the page keeps of its address: how the page looks, its language, and that it is in a frame.
+const KEEPS = ["lang", "dark", "large", "frame"];
+
+/** @param {string} search that of the link @param {string} present that of the page */
+export function inLook(search, present) {
+  const found = new URLSearchParams(search), here = new URLSearchParams(present);
+  for (const name of KEEPS) if (here.has(name) && !found.has(name)) found.set(name, here.get(name) ?? "");
+  return `?${found}`;
+}
+
 /** @param {Rendering<AddressModel>} rendering */
 export function renderAddress({ model }) {
   const listening = new AbortController(), options = { capture: true, signal: listening.signal };
@@ -37,6 +47,10 @@ export function renderAddress({ model }) {
     } else if ((!writing || event.key === "Enter") && !event.repeat && !MUTE.includes(event.key)) down();
   };
   window.addEventListener("keydown", onKey, options);
+  window.addEventListener("click", (event) => {
+    const link = /** @type {HTMLAnchorElement | undefined} */ (event.composedPath().find((node) => node instanceof HTMLAnchorElement && node.getAttribute("href")?.startsWith("?")));
+    if (link) link.search = inLook(link.search, location.search);
+  }, options);
   let visiting = ""; // what Back or Forward has requested
   const write = () => {
     if (visiting === model.where) visiting = "";
