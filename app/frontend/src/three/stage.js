@@ -95,12 +95,13 @@ export class Stage {
     this.controls.addEventListener("end", () => this.turned());
     let before = this.camera.position; // when a finger came, which may turn it a little before the browser scrolls the page
     this.controls.addEventListener("start", () => (before = this.camera.position.clone().sub(this.controls.target)));
-    canvas.addEventListener("pointercancel", () => void this.camera.position.copy(before).add(this.controls.target) && this.controls.update(), { capture: true });
+    canvas.addEventListener("pointercancel", () => {
+      this.camera.position.copy(before).add(this.controls.target);
+      this.controls.update();
+    }, { capture: true });
     // The wheel scrolls the page; with Ctrl, which touch pads send for a pinch, it zooms the picture.
     holder.addEventListener("wheel", (event) => event.ctrlKey || event.stopPropagation(), { capture: true, passive: true });
-
     canvas.addEventListener("keydown", (event) => this.key(event));
-
     canvas.addEventListener("webglcontextlost", () => {
       if (this.disposed) return;
       this.lost = true;
