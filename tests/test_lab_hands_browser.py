@@ -271,6 +271,17 @@ SMALL = """lab => [...lab.querySelectorAll("button, select, input:not(.num, .at)
     .map((e) => [e.className || e.textContent, e.getBoundingClientRect().height]).filter(([, high]) => high < 43.9)"""
 
 
+def test_a_finger_that_scrolls_the_page_leaves_the_view_of_the_top(lab):
+    found = lab(**PHONE)
+    page, (_, y) = found.page, middle(found.page.locator(".stage"))
+    touch = page.context.new_cdp_session(page)
+    for kind, up in (("touchStart", 0), *(("touchMove", 8 * i) for i in range(1, 13)), ("touchEnd", None)):
+        points = [] if up is None else [{"x": 30, "y": y - up}]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    page.wait_for_function("document.querySelector('main').scrollTop > 20")
+    assert "camera" not in {name for _, name, _ in found.told}
+
+
 @pytest.mark.parametrize("like", [{}, PHONE], ids=["1400", "phone"])
 def test_axe_finds_nothing_and_a_finger_finds_all(lab, like):
     found = lab(**like)

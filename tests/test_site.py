@@ -89,6 +89,9 @@ def test_it_speaks_every_language_and_has_the_lesson(page):
     page.get_by_role("button", name="Ansehen, was er tut").click()
     page.locator("#LessonView input[type=range]").first.press("End")
     page.locator(".equation math").first.wait_for()
+    with page.context.expect_page() as sheet:
+        page.get_by_role("button", name="Arbeitsblatt").click()
+    expect(sheet.value.locator("body")).to_contain_text("R = 15,0 mm, M = 6,0 g")  # the page's toy
 
 
 def test_it_is_small_and_too_large_a_grid_is_refused(folder, tmp_path, monkeypatch, capsys):

@@ -144,7 +144,7 @@ def spoken_words(view, toy, grid, words, scene):
                  "state": head(toy, name)},
         "lab": lab, "told": words, "near": listed("site.near"), "no_number": listed("lab.inputs.no_number"),
         "about": say("site.about", toy=name, count=len(words), **listing),
-        "lesson": {"texts": lesson, "steps": [said(step, scene) for step in LESSON], "worksheet": worksheet(),
+        "lesson": {"texts": lesson, "steps": [said(step, scene) for step in LESSON], "worksheet": worksheet(scene),
                    "asked": []},
     }  # fmt: skip
 

@@ -24,6 +24,7 @@ function say(...what) {
 function recover(why) {
   if (isHere() || again) return;
   again = true;
+  if (window.origin === "null") return say(words.boxed); // no further try would be better
   const now = document.createElement("button"), count = tries();
   now.textContent = words.now;
   now.style.cssText = "font:inherit;margin-left:12px";

@@ -18,5 +18,7 @@ REASONS = ("full", "crowded", "stopping", "ended", "failed", "lost")
 @cache
 def waiting(language):
     """The HTML."""
-    words = {name: say(f"main.server.{name}", language) for name in ("coming", "made", "again", "now", *REASONS)}
+    words = {
+        name: say(f"main.server.{name}", language) for name in ("coming", "made", "again", "now", "boxed", *REASONS)
+    }
     return PART.substitute(words=escape(json.dumps(words, ensure_ascii=False)), script=SCRIPT)

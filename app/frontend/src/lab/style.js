@@ -42,10 +42,12 @@ const places = `
 }
 `;
 
-// In a frame of another page: the top, the line and the controls.
+// In a frame of another page: the top, the line and the controls. On a phone the words keep the height of the longest, so that
+// the page below does not move as it plays.
 const framed = `
 .frame[data-framed] :is(.answer, .keeps, .numbers, .body, .outline, .say p:not(.small) .link) { display: none; }
 @container (min-width: 701px) { .frame[data-framed] .lab { --gap: 16px; grid-template: "stage controls" var(--stage) "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); } }
+@container (max-width: 700px) { .frame[data-framed] .say > div { min-height: calc(1.3 * var(--t-l) + 5.8 * var(--t-m)); } }
 `;
 
 const stage = `

@@ -12,6 +12,7 @@ import { Presenter, wishOf, writes } from "./present.js";
 import { Question } from "./question.js";
 import { Stage } from "./stage.js";
 import { style } from "./style.js";
+import { save } from "../widgets/saving.js";
 
 const SECTIONS = ["derivation", "published", "teach", "history"];
 const NEARLY = 0.03, LONG = 3; // s: this close to the end counts as the end; a longer rest can be skipped
@@ -295,9 +296,10 @@ class Lesson {
     return part("button", { type: "button", class: "link", onclick }, word);
   }
 
-  // Opens a page to print in a new window; it needs no server.
+  // Opens a page to print in a new window, or saves it where there may be none; it needs no server.
   paper() {
-    window.open(URL.createObjectURL(new Blob([this.model.worksheet], { type: "text/html" })), "_blank");
+    const page = new Blob([this.model.worksheet], { type: "text/html" });
+    window.open(URL.createObjectURL(page), "_blank") ?? save(page, "tippe-top-sheet.html");
   }
 
   draw() {

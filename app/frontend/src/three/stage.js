@@ -93,11 +93,15 @@ export class Stage {
     canvas.style.touchAction = "pan-y"; // a finger that moves up or down scrolls the page, as everywhere else
     this.controls.addEventListener("change", () => this.invalidate());
     this.controls.addEventListener("end", () => this.turned());
+    let before = this.camera.position; // when a finger came, which may turn it a little before the browser scrolls the page
+    this.controls.addEventListener("start", () => (before = this.camera.position.clone().sub(this.controls.target)));
+    canvas.addEventListener("pointercancel", () => {
+      this.camera.position.copy(before).add(this.controls.target);
+      this.controls.update();
+    }, { capture: true });
     // The wheel scrolls the page; with Ctrl, which touch pads send for a pinch, it zooms the picture.
     holder.addEventListener("wheel", (event) => event.ctrlKey || event.stopPropagation(), { capture: true, passive: true });
-
     canvas.addEventListener("keydown", (event) => this.key(event));
-
     canvas.addEventListener("webglcontextlost", () => {
       if (this.disposed) return;
       this.lost = true;

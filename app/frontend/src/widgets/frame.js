@@ -9,7 +9,10 @@ export function renderFrame({ model }) {
   root.dataset.framed = "";
   for (const [name, value] of Object.entries(PLACE)) root.style.setProperty(name, value);
   window.dispatchEvent(new CustomEvent("tippe:look"));
-  const telling = new ResizeObserver(() => parent !== window && parent.postMessage({ subject: "lti.frameResize", height: main.offsetHeight }, "*"));
+  const telling = new ResizeObserver(() => {
+    const { offsetHeight: height } = main; // none while the lesson fills the frame, or the screen
+    if (height && parent !== window) parent.postMessage({ subject: "lti.frameResize", height }, "*");
+  });
   telling.observe(main);
   model.on("remove", () => telling.disconnect());
 }
