@@ -213,6 +213,8 @@ def test_a_film_is_saved_and_linked_and_another_is_dropped_fitted_and_pulled(ser
         page.goto(f"{server}?tab=measure")
         page.get_by_text("This top slipped.").wait_for()
         numbers = page.locator("table").first.inner_text()
+        wanted = page.get_by_text("Open a film’s data").bounding_box()
+        assert wanted["y"] + wanted["height"] < 920, "not below the numbers' first screen"
         home = page.get_by_role("button", name="Take home")
         expect(home).to_be_enabled()
         home.click()
@@ -232,10 +234,10 @@ def test_a_film_is_saved_and_linked_and_another_is_dropped_fitted_and_pulled(ser
         assert page.locator("table").first.inner_text() == numbers
 
         page.evaluate(DROP, example("rolls").replace("# Nobody", "# Somebody"))
-        page.get_by_text("your own data").wait_for()
+        page.get_by_text("mine.txt", exact=True).wait_for()
         page.evaluate(DROP, "a letter\nto nobody\n")
         page.get_by_role("alert").filter(has_text="No line holds numbers").wait_for()
-        assert page.get_by_text("your own data").count() == 1
+        assert page.get_by_text("mine.txt", exact=True).count() == 1
 
         picture = page.get_by_role("img", name="Tilt: what was measured and fitted, over time")
         picture.wait_for()

@@ -225,7 +225,7 @@ HARMFUL = {
     "a zip of pictures": (lambda: zipped({"a.png": b"\x89PNG"}), "nothing-inside"),
     "a workbook of words": (lambda: xlsx(sheet([("a", "b")] * 20)), "nothing-inside"),
     "a film without points": (lambda: trk({}), "nothing-tracked"),
-    "a web page": (lambda: b"<?xml version='1.0'?><html/>", "nothing-tracked"),
+    "a web page": (lambda: b"<?xml version='1.0'?><html/>", "damaged"),
     "XML a thousand deep": (lambda: XML.encode() + b"<a>" * 100_000, "damaged"),
     "more than may be sent": (lambda: b"PK\x03\x04" + bytes(PACKED), "packed"),
 }

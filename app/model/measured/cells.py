@@ -42,7 +42,7 @@ class MeasuredError(ValueError):
 @dataclass(frozen=True, eq=False)
 class Cells:
     """names: of the columns. lines: the line number in the file of each row; values: (rows, columns), NaN for a gap, in
-    s where there were times of a clock. notes: as those of a Table."""
+    s from the first where there were times of a clock. notes: as those of a Table."""
 
     names: list[str]
     lines: Array
@@ -227,7 +227,8 @@ def _table(names: list[str] | None, rows: list[Row], between: str, whole: bool =
         if any(_CLOCK.fullmatch(cells[i]) for _, cells in rows):
             names[i] += " (s)"
             there = np.isfinite(values[:, i])
-            values[there, i] = np.unwrap(values[there, i], period=DAY)  # past midnight
+            turned = np.unwrap(values[there, i], period=DAY)  # past midnight
+            values[there, i] = turned - turned[:1]
     return Cells(names, np.array([number for number, _ in rows]), values, tuple(notes))
 
 

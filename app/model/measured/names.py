@@ -48,8 +48,8 @@ NAMES = {
     "tilt": "tilt theta θ angle winkel neigung inclination nutation tiltangle neigungswinkel",
     "line": "thetar θr positionangle",
     "azimuth": "azimuth azimut phi φ ϕ",
-    "spin": "spin omega3 ω3 w3 ω omega drehung drehzahl eigendrehung gyroscopez gyroskopz gyroz wz rotationratez "
-    "angularvelocity angularvelocityz winkelgeschwindigkeit winkelgeschwindigkeitz",
+    "spin": "spin omega3 omegaz ω3 ωz w3 ω omega rpm drehung drehzahl eigendrehung gyroscopez gyroskopz gyroz wz "
+    "rotationratez angularvelocity angularvelocityz winkelgeschwindigkeit winkelgeschwindigkeitz",
     "precession": "precession präzession phidot precessionrate präzessionsrate",
     "height": "height höhe heightofg h zg",
     "tip": "tip tipheight stemtip spitze stielende heightoftip",
@@ -75,7 +75,11 @@ _UNIT = {
 }  # fmt: skip
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?", re.A)
 _UNIT_LAST = re.compile(r"(?:\s+in\s+|[/_ ]\s*)([^/_\s]*(?:/[^/_\s]+)?)\s*$")
-_PER = re.compile(r"[\s_]+(?:per|pro)[\s_]+(s|min)[a-z]*|(?<!\bin)[\s·⋅*]*\b(s|min)(?:\^?[-\u2212]1|⁻¹)", re.I)
+_PER = re.compile(
+    r"(?:[\s_]+(?:per|pro)[\s_]+|(?<=(?:rad|deg|rev))_)(s|min)[a-z]*|"
+    r"(?<!\bin)[\s·⋅*]*\b(s|min)(?:\^?[-\u2212]1|⁻¹)",
+    re.I,
+)
 _RUN_LAST = re.compile(r"\s+((?:run|lauf|messung|durchgang)\s*#?\s*\d+)\s*$", re.I)
 _RUN_FIRST = re.compile(r"\s*([^:()\[\]±]{1,40}?)\s*:\s*(?=\S)")
 _OF_RADIANS = ("ω", "omega", "angular", "winkel")  # a rate of these in 1/s is in rad/s
@@ -95,7 +99,7 @@ def understood(name: str) -> tuple[str, str, float | None]:
     called, raw = without_unit(name)
     bare = re.sub(r"[^a-zäöüßθφϕω0-9]", "", called.lower())
     known = "rad/s" if raw in ("1/s", "/s") and bare.startswith(_OF_RADIANS) else _UNIT.get(raw, "")
-    known = known or ("s" if bare in ("seconds", "secondselapsed") else "")
+    known = known or _UNIT.get(bare.removesuffix("elapsed"), "")  # the name is the unit
     return _QUANTITY.get(bare, ""), known, float(error.strip().replace(",", ".")) if found else None
 
 

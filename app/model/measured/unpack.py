@@ -109,6 +109,8 @@ def _tracked(text: str) -> Iterator[list[str]]:
     if "<!" in re.sub(r"<!\[CDATA\[|<!--", "", text):  # entities
         raise Wrong("damaged", {})
     tree = ElementTree.fromstring(re.sub(r"^[^<]*<\?.*?\?>", "", text, count=1, flags=re.S))
+    if tree.tag != "object":
+        raise Wrong("damaged", {})
     clip, coords = _first(tree, "VideoClip"), _first(tree, "ImageCoordSystem")
     start, every = int(_number(clip, "startframe", 0)), max(int(_number(clip, "stepsize", 1)), 1)
     duration = _number(_first(tree, "ClipControl"), "delta_t", _number(_first(tree, "Video"), "delta_t", 1000.0))

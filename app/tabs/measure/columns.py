@@ -65,8 +65,8 @@ class Columns:
                         options={says: key for key, says in _quantities().items()})  # fmt: skip
         unit = Menu(say("measure.column.unit"), value=column.unit, options=_units(column))
         error = Field(say("measure.column.error"), value="" if column.error is None else written(column.error, "g"),
-                      shows="±")  # fmt: skip
-        guessed = words(_guessed(column), sizing_mode=None)
+                      shows="±", align="end")  # fmt: skip
+        guessed = words(_guessed(column), sizing_mode=None, align="end")
         self._errors = (*self._errors, error)
 
         def asks(column):

@@ -25,7 +25,7 @@ from app.tabs.measure.home import Home
 from app.tabs.measure.places import head, in_places
 from app.tabs.measure.recipe import recipes
 from app.tabs.measure.stage import film_stage, show_film
-from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words, source_words
+from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words
 from app.text import listed, say, told
 from app.widgets.cards import alert, flow, note, words
 from app.widgets.choice import Choice
@@ -84,9 +84,9 @@ class Measure:
             self.said.object = wrong or self.said.object
         parts = {
             "over": [self.said, self.over, self.asks.view, self.pictures.view, self.part],
-            "found": [self.stage, self.found, self.leave, self.file, flow(self.take_home, *self.recipes),
-                      self.home.view, flow(*examples), words(note(say("measure.private"))), self.about,
-                      flow(self.law), self.loose, flow(self.start, self.cancel)],
+            "found": [self.stage, self.found, self.file, flow(self.start, self.cancel, self.leave, self.take_home),
+                      self.home.view, flow(*examples), words(note(say("measure.private"))), flow(*self.recipes),
+                      self.about, flow(self.law), self.loose],
             "table": [self.below, head("constants"), self.constants],
         }  # fmt: skip
         return in_places(parts)
@@ -109,6 +109,10 @@ class Measure:
             return film.top, film.scales, film.shape, body(film.shape) if film.shape else outline(film.top)
         scene = self._scene
         return scene.top, scene.scales, scene.shape, scene.profile
+
+    @property
+    def _called(self):
+        return name_of(self._name, self._example, self._of_file)
 
     def _say_top(self):
         top, scales, *_ = self._body
@@ -181,8 +185,7 @@ class Measure:
     def _not_taken(self, error, each=1):
         self._refused(error, each)
         if self._table is not None:
-            name = name_of(self._name, self._example, self._of_file)
-            self.said.object += note(say("measure.still", name=name))
+            self.said.object += note(say("measure.still", name=self._called))
 
     def _clear(self):
         """Takes away what was computed of the data, and what is being computed."""
@@ -228,7 +231,7 @@ class Measure:
         return not self.start.disabled
 
     def _begin(self):
-        self.pictures.begin(self._data, self.part.value[0], source_words(self._example, self._of_file))
+        self.pictures.begin(self._data, self.part.value[0], self._called)
         self._draw()
 
     def _pulled(self, start):
@@ -323,7 +326,7 @@ class Measure:
         self.pictures.show(result.motion, result.better)
         show_film(self.stage, result.motion, self._body[3])
         self.take_home.disabled = False
-        says = f"<p>{source_words(self._example, self._of_file)}.</p>{self.found.object}"
+        says = f"<p>{self._called}.</p>{self.found.object}"
         data = self._data.between(*self._part)
         self.home.show(self._film(), data, result.fits, self._loose, self._part, says, result.kept)
 

@@ -11,7 +11,7 @@ from app.widgets.cards import note
 
 SHOWN = {"tilt": 180 / np.pi}
 NAMED = 8  # times of values that are far off
-OF_MODELS = ("", *[" class=n"] * 2, *[" class='n deep'"] * 2, "")
+OF_MODELS = ("", " class=n", *[" class='n deep'"] * 2, "")
 TABLE = """
 table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
 p { margin: 4px 0 } td, th { padding: 3px 10px 3px 0; text-align: left; font-weight: normal; vertical-align: baseline }
@@ -74,16 +74,11 @@ def far_words(fit, data):
     return "".join(f"<p>{each}</p>" for each in told)
 
 
-def source_words(example, of_file):
-    """Where the data come from."""
-    if example:
-        return say("measure.made_up", example=listed("measure.examples")[example])
-    return say("measure.saved" if of_file else "measure.own")
-
-
 def name_of(file, example, of_file):
     """What a film is called: by the name of its file, if it has one."""
-    return html.escape(file) or (listed("measure.examples")[example] if example else source_words("", of_file))
+    if example:
+        return say("measure.made_up", example=listed("measure.examples")[example])
+    return html.escape(file) or say("measure.saved" if of_file else "measure.own")
 
 
 def kept_words(kept):
@@ -125,7 +120,7 @@ def numbers_table(fit):
             rows.append(_row(say(f"measure.constants.{name}"), *(f"{mark}{part}" for mark, part in
                              zip(("", "± "), _number(value, error), strict=True)), "", ""))  # fmt: skip
     sentences = "".join(f"<p>{_together(*pair)}</p>" for pair in fit.together if set(pair[:2]) & set(fit.unknown))
-    head = f"<tr><th colspan=5>{say(f'measure.models.{fit.model.name}')}</th></tr>"
+    head = f"<tr><th colspan=5>{say('measure.of_model', model=say(f'measure.models.{fit.model.name}'))}</th></tr>"
     doubt = "worthless" if fit.refused else "others" if not fit.sure else ""
     worthless = f"<p>{say(f'measure.{doubt}')}</p>" if doubt else ""
     return f"<table>{head}{''.join(rows)}</table>{worthless}{sentences}"
@@ -156,7 +151,7 @@ def models_table(rolling, sliding):
     for fit in (sliding, rolling):
         seldom = written(min(fit.runs.values()), ".1f")
         chi2, aic = (written(value, ",.0f") for value in (fit.chi2, fit.aic))
-        cells = (chi2, f"{fit.freedom}", aic, seldom, say(f"measure.{_state(fit)}"))
+        cells = (f"{chi2} ({fit.freedom})", aic, seldom, say(f"measure.{_state(fit)}"))
         rows.append(_row(say(f"measure.models.{fit.model.name}"), *cells, best=fit is better, marks=OF_MODELS))
     return f"<table><tr>{head}</tr>{''.join(rows)}</table><div class=deep>{note(say('measure.heads_mean'))}</div>"
 

@@ -5,7 +5,7 @@ import { part } from "../widgets/parts.js";
 let made = 0; // for the ids of labels
 
 const list = `.menu { display: inline-flex; flex-direction: column; max-width: 100%; } .menu.beside { flex-direction: row; align-items: center; gap: 8px; }
-label { color: var(--ink-2); font-size: var(--t-s); } .beside label { font-size: inherit; white-space: nowrap; } select { max-width: 100%; padding: 0; text-overflow: ellipsis; }`;
+label { color: var(--ink-2); font-size: var(--t-s); } .beside label { font-size: inherit; white-space: nowrap; } select { max-width: 100%; padding: 0 4px 0 0; text-overflow: ellipsis; }`;
 
 /** @param {Rendering<MenuModel>} rendering */
 export function renderMenu(rendering) {
