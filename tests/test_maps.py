@@ -72,7 +72,8 @@ def test_leine_and_glockers_toy():
     at = (180 / 2 / np.pi, np.degrees(0.1))
     found = run(Map(), *at)  # the default map
     assert found.time_90 == pytest.approx(0.977, abs=2e-3)
-    assert found.end == "stem" and run(Map(seconds=6.0), *at).end != "stem" and run(Map(seconds=6.0), 45.0, 5.0).end == "stem"
+    later = Map(seconds=6.0)
+    assert found.end == "stem" and run(later, *at).end != "stem" and run(later, 45.0, 5.0).end == "stem"
 
 
 # ---- closed forms over it ----
