@@ -46,12 +46,12 @@ def call(run, **given):
     return CustomJS(args={"run": run, "given": given}, code=CALL, module=False)
 
 
-def classic(name, found):
-    """A classic script that calls a function of the bundle with the JSON of what was found: for pages that are opened
-    as files, which load no modules."""
+def classic(**found):
+    """A classic script that calls functions of the bundle, each with the JSON of what was found: for pages that are
+    opened as files, which load no modules."""
     inside, _, exported = BUNDLE.read_text(encoding="utf-8").rpartition("export{")
-    script = f"(function(){{'use strict';{inside}return {exported.split()[0]}}})()"
-    return f"{script}.{name}({json.dumps(as_json(found))});\n"
+    calls = "".join(f"tippe.{name}({json.dumps(as_json(values))});" for name, values in found.items())
+    return f"{{const tippe=(function(){{'use strict';{inside}return {exported.split()[0]}}})();{calls}}}\n"
 
 
 def values_of(part):

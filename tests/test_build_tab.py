@@ -71,7 +71,7 @@ def test_a_diameter_that_cannot_be_is_called_a_diameter():
 def test_the_bench_says_what_is_printed_and_goes_back_to_a_preset(builder, explorer):
     bench = Build(builder)
     bench.families.value = "loaded sphere"
-    assert bench.presets.value == "Loaded sphere" and "the core is not in it" in bench.derived.object
+    assert builder.draft.name == "Loaded sphere" and "the core is not in it" in bench.derived.object
     builder.set("core_density", 0.0)  # a cavity has this density
     assert "STL" not in bench.derived.object and bench.families.value != "loaded sphere"
     bench.families.value = "loaded sphere"

@@ -52,8 +52,8 @@ def number(page, text):
 
 
 def choose(page, preset):
-    """Chooses a preset, and waits until its numbers and its source are shown."""
-    page.get_by_role("combobox", name="Presets").select_option(preset.name)
+    """Chooses a preset in the head, and waits until its numbers and its source are shown."""
+    page.locator(".toy").select_option(preset.name)
     for text in (f"= {preset.shape.top.a:.4f}", f"= {preset.shape.top.I1:.4f}", f"{1e3 * preset.shape.mass:.4g} g"):
         number(page, text)
     page.get_by_text(preset.source[:50]).wait_for()
@@ -86,11 +86,19 @@ def load(page, text):
         {"name": "top.json", "mimeType": "application/json", "buffer": text.encode()})  # fmt: skip
 
 
+def section_and_top_stand_side_by_side(page):
+    """The drawing on the left, the top and what becomes of it on the right, both from the top of the room on."""
+    section, spin = page.locator("[data-figure=section]").first, page.get_by_role("button", name="Spin it")
+    left, right = section.bounding_box(), spin.bounding_box()
+    assert left["x"] < 100 < 500 < left["x"] + left["width"] <= right["x"]
+    assert left["y"] < right["y"] < left["y"] + left["height"]
+
+
 def a_dragged_handle_changes_number_section_and_the_top_in_3d(page):
     """The end of the stem, from l = 19.2 to 12 mm."""
     drag(page, (0, 27.4), (0, 20.2))
     page.wait_for_function(f"() => Math.abs(({SECTION})() - 20.2) < 0.5")
-    page.get_by_role("combobox", name="Presets").filter(has_text="none of these").wait_for()
+    expect(page.locator(".toy option:checked")).to_have_text("Your own top")
     top = load_top(saved(page))
     assert top.l == pytest.approx(0.012, abs=5e-4)
     assert page.evaluate(SECTION) == pytest.approx(1e3 * (top.c + top.l), abs=1e-9)
@@ -148,6 +156,7 @@ def test_a_top_is_built_saved_and_loaded(server, chromium, tmp_path):
         choose(page, TOY)
         text = saved(page).decode()
         assert load_top(text) == TOY.shape
+        section_and_top_stand_side_by_side(page)
         choose(page, PAPERS)
         a_dragged_handle_changes_number_section_and_the_top_in_3d(page)
         choose(page, PAPERS)

@@ -11,7 +11,8 @@ from visiting import IN_SIGHT
 from app.model.explorer import Explorer
 from app.model.roll.slipping import slipping
 from app.model.start import arrives
-from app.share.letter import letter
+from app.page.site import mailed
+from app.share.letter import figures
 from app.text import listed, speaking
 from app.widgets.plane_view import PlaneView
 from tippe_core import Top, tielines
@@ -350,7 +351,8 @@ def test_axe_finds_nothing_and_a_look_is_taken_at_once(figure, look):
 @pytest.mark.slow
 def test_a_letter_has_the_same_figure_and_its_bead_goes_with_the_top(chromium, tmp_path):
     path = tmp_path / "letter.html"
-    path.write_bytes(letter(Explorer().scene))
+    below, values = figures(Explorer().scene)
+    path.write_bytes(mailed("?v=1", {"playing": False}, below, letter=values))
     page, errors = chromium.new_page(), []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(path.as_uri())

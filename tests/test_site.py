@@ -7,7 +7,8 @@ from lab_page import DRAWN, TIME, entry, pause, put
 from playwright.sync_api import expect
 
 from app.model import tell
-from app.page.site import MOST, main
+from app.page.site import MOST, mailed, main
+from app.text import speaking
 
 SPINS = 20.0, 28.65
 START = "v=4&spin={:g}&tilt=5.73&mu=0.3"
@@ -92,6 +93,29 @@ def test_it_speaks_every_language_and_has_the_lesson(page):
     with page.context.expect_page() as sheet:
         page.get_by_role("button", name="Arbeitsblatt").click()
     expect(sheet.value.locator("body")).to_contain_text("R = 15,0 mm, M = 6,0 g")  # the page's toy
+
+
+@pytest.mark.served
+@pytest.mark.parametrize("query", [
+    "v=4&spin=35&tilt=12",
+    "v=4&spin=20&law=coulomb&table=rough&body=BareSphere_.02_.02_.3_.3742857142857143_.4&lang=de",
+], ids=["the toy", "a body of one's own"])  # fmt: skip
+def test_the_page_to_mail_is_the_run_that_was_shown(chromium, tmp_path, query):
+    language, table = ("de", "rough") if "lang=de" in query else ("en", "ordinary")
+    file = tmp_path / "mailed.html"
+    with speaking(language):
+        file.write_bytes(mailed(f"http://localhost/app?{query}", {"playing": False, "time": 0.0}))
+    with chromium.new_context(reduced_motion="reduce", offline=True) as context:
+        page, asked = context.new_page(), []
+        page.on("request", lambda request: asked.append(request.url))
+        page.goto(file.as_uri())
+        page.wait_for_function(DRAWN)
+        phases = tell(query, language)["tables"][table]["phases"]
+        for key, phase in (("Home", phases[0]), ("End", phases[-1])):
+            page.locator("input.at").press(key)
+            expect(page.locator(".say .big")).to_have_text(phase["headline"])
+        assert page.get_by_role("link", name=query).is_visible() and asked == [file.as_uri()]
+        assert page.locator(".say .link").locator("visible=true").count() == 0
 
 
 def test_it_is_small_and_too_large_a_grid_is_refused(folder, tmp_path, monkeypatch, capsys):

@@ -10,6 +10,8 @@ from app.model.lab.lab import Lab
 from app.model.playing import Playing, together
 from app.model.runs import Runs, connected_to, to_session
 from app.model.setup import PATCH
+from app.page.site import mailed
+from app.share.letter import figures
 from app.share.saved_runs import Shown
 from app.state import opened as room
 from app.state.keep import explorer_of, kept
@@ -152,6 +154,14 @@ class House:
         if self._learn is not None:
             self._learn.param.update(**place)
         self._look_at(room="learn")
+
+    def mail(self, scene, link):
+        """The page to mail: the stage as it is shown, and what Research has beside it."""
+        look = self.playing.chosen
+        if self._explores():
+            return mailed(link, look)
+        below, letter = figures(scene)
+        return mailed(link, look, below, letter=letter)
 
     def build(self):
         bench, built, own = (

@@ -52,7 +52,7 @@ def page():
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
                   lambda: house.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
-                  worksheet)  # fmt: skip
+                  worksheet, house.mail)  # fmt: skip
     house.told, house.rests = share.refresh, lambda: keep.at_rest(share.address.gesture)
     for owner in (look, tongue):
         keep.add(owner)

@@ -1,5 +1,5 @@
 """A page without a server: a folder that any web host or a USB stick serves, with the Lab of one toy at the starts of a
-grid, and the lesson without votes.
+grid, and the lesson without votes; or one file to mail, with the Lab at one start.
 
     tippe-top site DIR
 
@@ -10,12 +10,14 @@ in it, because a browser loads neither modules nor data from a file.
 import argparse
 import base64
 import gzip
+import html
 import json
 import sys
 from itertools import product
 from math import prod
 from pathlib import Path
 from string import Template
+from urllib.parse import urlsplit
 
 import panel
 
@@ -23,14 +25,16 @@ from app.bundle import BUNDLE, as_json, classic, values_of
 from app.model.arrival import MU, SPIN, TILT, TOY
 from app.model.lab.lab import Lab
 from app.model.lesson.lesson import LESSON
+from app.model.runs import Runs
 from app.model.setup import TABLES, TOYS
 from app.page.first import CURVE, FRAME, POSE, written
-from app.state.keep import explorer_of
+from app.state.keep import explorer_of, read
 from app.tabs.lab.lab import SLIDERS, LabTab
 from app.tabs.learn.lesson import LessonView, runs_of, said
 from app.tabs.learn.worksheet import worksheet
 from app.text import LANGUAGES, listed, say, speaking, spoken, told
 from app.text import written as figure
+from app.widgets import choices
 from app.widgets.head import Head
 from app.widgets.look import FAMILY
 from tippe_core import TopError
@@ -54,10 +58,10 @@ OPTIONS = {"spin": ("spins", "turns a second"), "tilt": ("tilts", "degrees"), "m
 def site(folder, toy=TOY, grid=GRID, look=lambda done, count: None):
     """Writes the folder, and returns its size in bytes. look: called after each start. Raises TopError for a start that
     is impossible, and ValueError for a value that the Lab refuses or if the folder would be larger than MOST."""
-    notices = (BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8")
+    notices = _notices()
     files = {
-        "index.html": PAGE.substitute(title=say("main.title"), family=FAMILY),
-        "site.js": f"{typesetter()}\n{classic('site', stored(toy, grid, look))}",
+        "index.html": _page(script='<script src="site.js"></script>', lang="en"),
+        "site.js": f"{typesetter()}\n{classic(site=stored(toy, grid, look))}",
         "THIRD_PARTY_NOTICES.txt": notices + KATEX,
     }
     size = sum(len(text.encode()) for text in files.values())
@@ -68,6 +72,54 @@ def site(folder, toy=TOY, grid=GRID, look=lambda done, count: None):
     for name, text in files.items():
         (Path(folder) / name).write_text(text, encoding="utf-8")
     return size
+
+
+class WithoutEnds(Runs):
+    """For a Lab without a slider of spins: the ends of its runs at other spins, which take long, are not computed."""
+
+    def begin(self, run, kind, *pool):
+        if kind != "ends":
+            super().begin(run, kind, *pool)
+
+
+def mailed(link, look, below="", **more):
+    """The start that a link opens, on each table, as one HTML file (bytes), in the language of text.spoken(). look:
+    {parameter of LabView: value}, how the top is shown, and at which time; below: HTML that follows; more: {function of
+    the bundle: values} for it."""
+    texts, _ = read(urlsplit(link).query)
+    explorer, _ = explorer_of(texts)
+    lab, table = Lab(WithoutEnds(), explorer), explorer.table
+    lab.show()
+    said, view = _tables(lab, {})
+    toy, known = choices.tops(explorer.toy)
+    state = head(toy, dict(known)[toy]) | {"tabs": []}
+    words = spoken_words(view, {"": said}, state, explorer.scene) | {"about": say("share.letter.source")}
+    says = words["lab"]["texts"]  # without the way to the lesson
+    words["lab"] |= look | {"texts": says | {"whys": {}, "more": says["more"] | {"caught": ""}}}
+    found = {"languages": {spoken(): spoken()}, "grid": {}, "first": {}, "table": table,
+             "words": {spoken(): packed(as_json(words).encode())}, "runs": {"": _numbers(view)}}  # fmt: skip
+    shown = html.escape(link)
+    way = f'<p id="mailed">{say("share.letter.change")} <a href="{shown}">{shown}</a></p>' if link else ""
+    script, notices = f"<script>{classic(site=found, **more)}</script>", f"<!-- {_notices()} -->\n"
+    return _page(script=script, lang=spoken(), notices=notices, below=way + below).encode()
+
+
+def _page(**parts):
+    return PAGE.substitute({"title": say("main.title"), "family": FAMILY, "notices": "", "below": ""} | parts)
+
+
+def _notices():
+    return (BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8")
+
+
+def _tables(lab, grid, **start):
+    """({table: [state, told]} of a start on each table and on all three, the view of all three)."""
+    views = {table: shown(lab, grid, table=table, **start) for table in (*TABLES, "three")}
+    return {table: [state, said] for table, (state, said, _) in views.items()}, views["three"][-1]
+
+
+def _numbers(view):
+    return base64.b64encode(written(view, NUMBERS)).decode()
 
 
 def typesetter():
@@ -91,17 +143,19 @@ def stored(toy, grid, look):
         for language in LANGUAGES:
             with speaking(language):
                 start = {"toy": toy, **dict(zip(grid, values, strict=True))}
-                views = {table: shown(lab, grid, table=table, **start) for table in (*TABLES, "three")}
-            words[language][key] = {table: [state, said] for table, (state, said, _) in views.items()}
-        view = views["three"][-1]
-        runs[key] = base64.b64encode(written(view, NUMBERS)).decode()
+                words[language][key], view = _tables(lab, grid, **start)
+        runs[key] = _numbers(view)
         look(len(runs), prod(map(len, grid.values())))
     explorer.settle()
     first = {name: min(grid[name], key=lambda value: abs(value - at)) for name, at in FIRST.items()}
     found = {}
     for language in LANGUAGES:
         with speaking(language):
-            found[language] = packed(as_json(spoken_words(view, toy, grid, words[language], explorer.scene)).encode())
+            name = listed("build.presets")[toy]["name"]
+            listing = {name: "; ".join(figure(value, "g") for value in values) for name, values in grid.items()}
+            about = {"about": say("site.about", toy=name, count=len(runs), **listing)}
+            spoken_now = spoken_words(view, words[language], head(toy, name), explorer.scene) | about
+            found[language] = packed(as_json(spoken_now).encode())
     lesson = {"runs": runs_of(LESSON, explorer.scene), "others": {}}
     return {"languages": {name: name for name in LANGUAGES}, "grid": grid, "first": first, "words": found, "runs": runs,
             "lesson": packed(as_json(lesson).encode())}  # fmt: skip
@@ -115,7 +169,7 @@ def shown(lab, grid, **inputs):
         raise ValueError(" ".join(refused.values()))
     view = LabTab(lab, None).view
     state, said = json.loads(view.state), json.loads(view.told)
-    spins = grid["spin"]
+    spins = grid.get("spin", [0.0])
     ends = [[max(low, min(spins)), min(high, max(spins)), *what] for low, high, *what in state["ends"] or ()
             if high > min(spins) and low < max(spins)]  # fmt: skip
     sliders = {name: slider(values, SLIDERS[name]) for name, values in grid.items() if len(values) > 1}
@@ -130,20 +184,17 @@ def slider(values, known):
     return [low, high, step if even else known[2], known[3]]
 
 
-def spoken_words(view, toy, grid, words, scene):
-    """Everything in the language of the page."""
+def spoken_words(view, words, state, scene):
+    """Everything in the language of the page; words: {start: of each table}; state: that of its head."""
     lab = {name: value for name, value in values_of(view).items() if name not in NUMBERS} | {"texts": type(view).says()}
     lab["texts"] |= {"nexts": {name: word for name, word in lab["texts"]["nexts"].items() if name != "research"}}
     lab["texts"] |= {"lets_go": "", "flick_hint": ""}  # a push is a run that is not stored
     lesson = LessonView.says()
     lesson |= {"lesson": lesson["lesson"] | {"sections": {}}}
-    listing = {name: "; ".join(figure(value, "g") for value in values) for name, values in grid.items()}
-    name = listed("build.presets")[toy]["name"]
     return {
         "head": {"texts": Head.says() | dict.fromkeys(("tour", "keys", "statement"), ""), "asked": [],
-                 "state": head(toy, name)},
+                 "state": state},
         "lab": lab, "told": words, "near": listed("site.near"), "no_number": listed("lab.inputs.no_number"),
-        "about": say("site.about", toy=name, count=len(words), **listing),
         "lesson": {"texts": lesson, "steps": [said(step, scene) for step in LESSON], "worksheet": worksheet(scene),
                    "asked": []},
     }  # fmt: skip

@@ -1,27 +1,24 @@
-"""The present state as one HTML file to mail: it opens without a server or a network, and its top rolls.
-
-It contains the page's own parts: Bokeh and its figures, the bundle with three.js, and the bytes that Python computed.
+"""The paper's figures in a page to mail, which opens without a server or a network: Bokeh and its figures, and the
+values of the bundle's own.
 """
 
-import html
+import json
 from pathlib import Path
 from string import Template
 
 from bokeh.embed import components
 from bokeh.settings import settings
 
-from app.bundle import BUNDLE, classic, values_of
-from app.model.colours import COLOURS
+from app.bundle import values_of
 from app.share.export import parameters
-from app.text import say, spoken
+from app.text import say
 from app.widgets.controls import SYMBOLS
 from app.widgets.plane_view import PlaneView
 from app.widgets.portraits import Curve, Force, Phase, Potential, Track
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.times import TimeFigures, label
-from app.widgets.top3d import Top3D, show_top
 
-PAGE = Template(Path(__file__).with_name("letter.html").read_text(encoding="utf-8"))
+FIGURES = Template(Path(__file__).with_name("letter.html").read_text(encoding="utf-8"))
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
 PLANE = f"({SYMBOLS['K_J']}, {SYMBOLS['angle']})"
 TYPESET = {
@@ -39,23 +36,23 @@ TYPESET = {
 }
 
 
-def letter(scene, link="", look=None):
-    """The page (bytes, UTF-8). look: {parameter of Top3D: value}, how the top is shown, and at which time.
+def figures(scene):
+    """(HTML, {component: its values}) for the rolling motion of a Scene.
 
     It is in the language of text.spoken(); in a thread of its own, call it within text.speaking().
     """
     plane, times = PlaneView(), TimeFigures()
     plane.show_selected(scene)
     plane.show_plane(scene)
+    plane.state = json.dumps(json.loads(plane.state) | {"roads": []})  # which lead to other motions
     times.show_motions({"rough": scene.trajectory}, "rough", scene.scales, mu=scene.mu_s)
-    top, surface = Top3D(clock="lab", **(look or {})), Surface3D()
-    show_top(top, scene)
+    surface = Surface3D()
     show_surface(surface, scene)
     portraits = [kind() for kind in (Phase, Curve, Potential, Track, Force)]
     for portrait in portraits:
         portrait.show(scene)
-    figures = (*times.figures.values(), *(portrait.figure for portrait in portraits))
-    script, divs = components(figures, wrap_script=True)
+    drawn = (*times.figures.values(), *(portrait.figure for portrait in portraits))
+    script, divs = components(drawn, wrap_script=True)
     time_divs, portrait_divs = divs[: len(times.figures)], divs[len(times.figures) :]
     rows = "".join(
         f'<div class="row"><div>{label(name)}</div><div class="figure">{div}</div></div>'
@@ -67,14 +64,7 @@ def letter(scene, link="", look=None):
         f'<p class="axis">{portrait.words(scene)}</p></section>'
         for portrait, div in zip(portraits, portrait_divs, strict=True)
     )
-    shown = html.escape(link)
-    return PAGE.substitute(
-        lang=spoken(),
-        accent=COLOURS["accent"],
-        title=say("share.letter.title", K_J=scene.constants.K_J, K_R=scene.constants.K_R),
-        explorer=say("main.title"),
-        notices=(BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),
-        card_top=say("roll.cards.top"),
+    page = FIGURES.substitute(
         card_plane=say("roll.cards.plane", plane=PLANE),
         card_floor=say("roll.cards.floor", height=SYMBOLS["height"], plane=PLANE),
         card_times=say("roll.cards.times"),
@@ -82,13 +72,11 @@ def letter(scene, link="", look=None):
         portraits=pictures,
         unit=say("planes.keys.time"),
         this=say("share.letter.motion"),
-        source=say("share.letter.source"),
-        parameters=", ".join(_said(scene)),
-        link=f'<p>{say("share.letter.change")} <a href="{shown}">{shown}</a></p>' if link else "",
+        parameters=f"{', '.join(_said(scene))}. {say('share.letter.bokeh')}",
         bokeh=f"<script>{(settings.bokehjs_path() / 'js' / 'bokeh.min.js').read_text(encoding='utf-8')}</script>",
         figures=script,
-        script=classic("letter", {type(part).__name__: values_of(part) for part in (top, plane, surface)}),
-    ).encode()
+    )
+    return page, {type(part).__name__: values_of(part) for part in (plane, surface)}
 
 
 def _said(scene):

@@ -5,7 +5,6 @@ import html
 import panel as pn
 
 from app.share import export, glb, programs, saved_runs
-from app.share.letter import letter
 from app.share.parts import Embed, Film, Paper, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.share.saved_runs import Shown
@@ -67,10 +66,11 @@ def embedded(link):
 
 class Files:
     """view: the rows. runs: the page's Runs; playing: its Playing; body: returns the body that can be printed, or None;
-    sheet: returns the worksheet for a class, of a Scene. show(scene, shown, link) sets what is now on the page, and the
-    link that opens it; shown: {table: Shown}, empty if the rolling motion is shown."""
+    sheet: returns the worksheet for a class, of a Scene; mail: returns the page to mail, of a Scene and its link.
+    show(scene, shown, link) sets what is now on the page, and the link that opens it; shown: {table: Shown}, empty if
+    the rolling motion is shown."""
 
-    def __init__(self, runs, playing, body, sheet):
+    def __init__(self, runs, playing, body, sheet, mail):
         self._runs, self._playing, self._body = runs, playing, body
         self._scene, self._shown, self._link = None, {}, ""
         tables = listed("share.tables")
@@ -86,9 +86,7 @@ class Files:
         rows["solid"].append(self._mesh)
         said = {name: _says(_titled(name)) for name in ("photo", *ROWS, "letter", "sheet")}
         self._solid = said["solid"]
-        mailed = self._of_scene(
-            NAMES["html"], "tippe-top.html", lambda scene, link: letter(scene, link, playing.chosen)
-        )
+        mailed = self._of_scene(NAMES["html"], "tippe-top.html", mail)
         self._sheet, self._paper = sheet, Paper(margin=0, label=say("share.panel.print"))
         rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [self._paper]}
         self._python = Copy(label="Python", rows=13, button=listed("share.copy"), sizing_mode="stretch_width",

@@ -46,17 +46,18 @@ class Share(param.Parameterized):
     keep: the page's Keep; playing: its Playing; scene: the first one; runs: the page's Runs; shown: returns the
     saved_runs.Shown of the tables that are shown; busy: whether others are being computed; settle: solves the scene of
     the present inputs, if that was postponed; body: returns the body of the page's top; sheet: returns the worksheet
-    for a class, of a Scene. show() is for the scene of a hand at rest.
+    for a class, of a Scene; mail: returns the page to mail, of a Scene and its link. show() is for the scene of a hand
+    at rest.
     """
 
     is_open = param.Boolean(default=False)
 
     def __init__(self, keep, playing, scene, runs=None, shown=list, busy=bool, settle=bool, body=lambda: None,
-                 sheet=lambda scene: ""):  # fmt: skip
+                 sheet=lambda scene: "", mail=lambda scene, link: b""):  # fmt: skip
         super().__init__()
         self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
         self._shown, self._busy, self._settle, self._body, self._sheet = shown, busy, settle, body, sheet
-        self._files = None
+        self._mail, self._files = mail, None
         self.keep.add(Clock(playing))
         self.keep.add(playing)
         self.address = Address(search=self.keep.query, where=self.keep.where, width=0, height=0, margin=0)
@@ -151,7 +152,7 @@ class Share(param.Parameterized):
         self._head = ShareHead(margin=0, sizing_mode="stretch_width")
         at_once(self._head, "closed")
         self._head.param.watch(lambda event: self.close(), "closed")
-        self._files = Files(self._runs, self._playing, self._body, self._sheet)
+        self._files = Files(self._runs, self._playing, self._body, self._sheet, self._mail)
         self._saves = pn.Column(*self._files.view, sizing_mode="stretch_width", margin=0, visible=False,
                                 stylesheets=[UNROLLED])  # fmt: skip
         self.panel.objects = [self._head, self._saves]

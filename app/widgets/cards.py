@@ -17,10 +17,13 @@ STAGED = """
 """
 MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
 UNROLLED = ".scroll-button { display: none !important }"  # Panel's, which takes a place of its own
-SIDE = """
-:host { display: contents } .scroll-button { display: none !important }
+SIDE = (
+    UNROLLED
+    + """
+:host { display: contents }
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 24px } }
 """
+)
 IN_SIGHT = "@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }"
 # The card with the stage. On a narrow page it stays in sight below the head; otherwise it is as high as the cards
 # below it, which stay in sight too, allow.
@@ -134,7 +137,7 @@ def staged(stage, others, mirrored=False):
         pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]),
         pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
     ]
-    sheets = [STAGED, MIRRORED] if mirrored else [STAGED]
+    sheets = [UNROLLED, STAGED, *([MIRRORED] if mirrored else [])]
     return pn.Column(*sides[:: -1 if mirrored else 1], sizing_mode="stretch_width", margin=0, stylesheets=sheets)
 
 

@@ -1,10 +1,9 @@
-// The own pictures in a letter: a page that works without a server. It contains the values of their models.
+// Components in a page that works without a server. It contains the values of their models.
 import { valued } from "./data.js";
 import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
-import { renderTop3D } from "./three/top3d.js";
 
-const pictures = { PlaneView: renderPlane, Surface3D: renderSurface3D, Top3D: renderTop3D };
+const pictures = { PlaneView: renderPlane, Surface3D: renderSurface3D };
 
 // A stand-in for the model that Panel passes to a component: values, with listeners that run when one is set.
 /** @param {Record<string, any>} values */

@@ -28,7 +28,7 @@ class Site {
   constructor(stored) {
     this.stored = stored;
     this.start = { ...stored.first };
-    this.table = TABLES[0];
+    this.table = stored.table ?? TABLES[0];
     this.room = "lab";
     this.step = "";
     this.look = { dark: null, large: false };
@@ -42,7 +42,7 @@ class Site {
   /** @param {string} language */
   async open(language) {
     const words = (this.words = await read(this.stored.words[language]));
-    this.runs ??= await read(this.stored.lesson);
+    if (this.stored.lesson) this.runs ??= await read(this.stored.lesson);
     this.said = {};
     const lab = { ...words.lab, ...(await this.values(0)) };
     for (const part of this.parts) part.leave();
@@ -132,6 +132,6 @@ class Site {
 /** @param {string} text JSON of what is stored */
 export function site(text) {
   const stored = JSON.parse(text);
-  const asked = new URLSearchParams(location.search).get("lang");
-  return new Site(stored).open(inOneLanguage(stored.languages, asked));
+  const [only, other] = Object.keys(stored.languages), asked = new URLSearchParams(location.search).get("lang");
+  return new Site(stored).open(other ? inOneLanguage(stored.languages, asked) : only);
 }

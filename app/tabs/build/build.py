@@ -7,7 +7,7 @@ from functools import partial
 import panel as pn
 
 from app.model.build.builder import LARGEST_FILE
-from app.model.build.dimensions import FAMILIES, named, nearest, value_of
+from app.model.build.dimensions import FAMILIES, nearest, value_of
 from app.model.build.inside import inside
 from app.model.runs import Runs
 from app.tabs.build.fields import symbol
@@ -22,8 +22,7 @@ from app.widgets.numbers import Numbers, number, tidy, typed_number
 from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
-SAYS = "calc(55px * var(--type, 1))"  # room for three lines about the source of a preset
-NARROW = {"max-width": "max(326px, min(100%, 100vh - 300px))"}  # so that the results below the section are in sight
+NARROW = {"max-width": "max(326px, min(100%, 100vh - 420px))"}  # so that the first sliders are in sight
 OWN = ""  # because a select cannot show that nothing is chosen
 
 
@@ -117,8 +116,7 @@ class Build:
         self._dimensions, self._shown, self._silent = {}, None, False
         self.section = Section(self._drag)
         self.numbers, self.derived, self.file_words = words(), words(), words()
-        self.source = words(styles={"min-height": SAYS})  # so that nothing below it moves when a hand changes the body
-        self.presets = self._choice("presets", builder.choose)
+        self.source = words()
         self.families = self._choice("family", builder.choose_family)
         self.material = Material(lambda density: builder.set("density", density))
         self.inside = Inside(builder.fill)
@@ -176,24 +174,23 @@ class Build:
 
     @property
     def section_view(self):
-        """The section, the results, and whether the explorer's numbers are still those of the body."""
+        """What kind of body, its section, the results, and whether the explorer's numbers are still those of the
+        body."""
         figure = pn.pane.Bokeh(self.section.figure, margin=0, sizing_mode="scale_width", styles=NARROW)
-        return [figure, self.numbers, self.derived, self.parted]
+        return [flow(self.families, self.material.view), figure, self.numbers, self.derived, self.parted]
 
     @property
     def bench_view(self):
         """The inputs."""
         files = flow(self.saved, self.file, self.stl)
-        choices = flow(self.presets, self.families, self.material.view)
         return [
-            choices,
-            self.source,
             self.inside.view,
             self.dimensions.view,
             self.points,
             *self.pieces.view,
             files,
             self.file_words,
+            self.source,
         ]
 
     def _show(self, draft):
@@ -222,11 +219,7 @@ class Build:
         self.material.show(draft.shape)
         self._show_dimensions(draft)
         self._silent = True
-        # the chosen entry cannot be chosen again, so a changed body has an entry of its own
-        own = {} if draft.name else {say("build.bench.none"): OWN}
-        presets = {named(preset.name): preset.name for preset in PRESETS}
-        self.presets.param.update(options=own | presets, value=draft.name)
-        called = listed("build.families")
+        called = listed("build.families")  # the chosen one cannot be chosen again: a changed body has its own
         own = {} if draft.name else {say("build.bench.changed", family=called[draft.family]): OWN}
         families = {called[family]: family for family, _ in (FAMILIES[type(preset.shape)] for preset in PRESETS)}
         self.families.param.update(options=own | families, value=draft.family if draft.name else OWN)

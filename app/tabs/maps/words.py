@@ -39,6 +39,8 @@ def colours_say(level, colour):
         said.append(_patch("background: transparent", say("maps.missing")))
     if level.finest:
         said.append(_patch(HATCHED, say("maps.hatched")))
+        if colour == "end" and (on_the_way := (level.end == "moving").sum()):
+            said.append(f"<br>{say('maps.on_the_way', moving=on_the_way, count=level.end.size)}")
         names = dict.fromkeys(name for name, _ in lines(level.asked))
         said += [
             f"<br>{swatch('var(--faint, #5b6875)', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names
