@@ -92,7 +92,7 @@ def mailed(link, look, below="", **more):
     lab.show()
     said, view = _tables(lab, {})
     toy, known = choices.tops(explorer.toy)
-    state = head(toy, dict(known)[toy]) | {"tabs": []}
+    state = head(toy, dict(known)[toy]) | {"tabs": [], "languages": [[spoken(), LANGUAGES[spoken()]]]}
     words = spoken_words(view, {"": said}, state, explorer.scene) | {"about": say("share.letter.source")}
     says = words["lab"]["texts"]  # without the way to the lesson
     words["lab"] |= look | {"texts": says | {"whys": {}, "more": says["more"] | {"caught": ""}}}
