@@ -17,13 +17,13 @@ from panel.io.state import set_curdoc
 from app.model.measured.examples import FOLDER
 from app.model.votes.classroom import Rooms
 from app.page import page
-from app.page.house import House
+from app.page.session import Session
 from app.state import names
 from app.tabs.learn.poll import Counter
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
 from app.widgets.head import HeadBar
-from app.widgets.pacing import Pacer
+from app.widgets.scheduling import RenderScheduler
 from tippe_core import PRESETS, TruncatedSphere, save_top
 
 PAPER, CONE, TOY = "The paper's tippe top", "Wooden cone", "Leine and Glocker's toy"
@@ -39,7 +39,7 @@ class Store(dict):
         self[key] = function(self.get(key))
 
 
-class Session:
+class Opened:
     """A page without a browser."""
 
     def __init__(self, link, made, parts):
@@ -52,8 +52,8 @@ class Session:
         return next(owner for _, owner, _ in self._parts if type(owner).__name__ == name)
 
     @property
-    def house(self):
-        return self._one(House)
+    def session(self):
+        return self._one(Session)
 
     @property
     def maps(self):
@@ -68,31 +68,31 @@ class Session:
 
     def asks(self, **inputs):
         """What the controls of the rolling motion ask for."""
-        pacer = self.house.pacer
-        pacer.ask(**inputs)
-        pacer._requested = 0.0
-        pacer._rest()
-        assert not self.house.scene.messages, self.house.scene.messages
+        scheduler = self.session.scheduler
+        scheduler.ask(**inputs)
+        scheduler._requested = 0.0
+        scheduler._rest()
+        assert not self.session.scene.messages, self.session.scene.messages
         return self
 
     def planes(self, **inputs):
         """What the controls of the three planes ask for."""
-        self.house.start._planes.ask(**inputs)
-        self.house.explorer.settle()
+        self.session.start._planes.ask(**inputs)
+        self.session.explorer.settle()
         return self
 
     def lab(self, **inputs):
         """What the controls of the toy that flips ask for."""
-        self.house.lab_of.ask(**inputs)
-        assert not self.house.lab_of.scene.messages, self.house.lab_of.scene.messages
+        self.session.lab_of.ask(**inputs)
+        assert not self.session.lab_of.scene.messages, self.session.lab_of.scene.messages
         return self
 
     def builds(self, does, *inputs):
         """What the bench asks for."""
-        getattr(self.house.builder, does)(*inputs)
-        self.house.pacer._requested = 0.0
-        self.house.pacer._rest()
-        assert not self.house.builder.draft.messages, self.house.builder.draft.messages
+        getattr(self.session.builder, does)(*inputs)
+        self.session.scheduler._requested = 0.0
+        self.session.scheduler._rest()
+        assert not self.session.builder.draft.messages, self.session.builder.draft.messages
         return self
 
     def plays(self, **settings):
@@ -133,10 +133,10 @@ class Session:
 
     def query(self):
         """The link as Share gives it, with a teacher's key, which Share leaves out."""
-        self.house.explorer.settle()
-        self.house.keep.at_rest()
-        assert not self.house.keep.sentence, self.house.keep.sentence
-        return self.house.keep.query
+        self.session.explorer.settle()
+        self.session.url_state.commit()
+        assert not self.session.url_state.sentence, self.session.url_state.sentence
+        return self.session.url_state.query
 
 
 @contextmanager
@@ -147,13 +147,13 @@ def opened(link=""):
         done(work(Rooms(store)))
 
     with (
-        set_curdoc(Document()), alone("lab", "planes", "guess", "fit"), noted(House, HeadBar, Maps, Measure) as made,
-        kept(link, every=True) as parts, patch.object(Pacer, "_send", lambda pacer, draw, flying: draw()),
+        set_curdoc(Document()), alone("lab", "planes", "guess", "fit"), noted(Session, HeadBar, Maps, Measure) as made,
+        kept(link, every=True) as parts, patch.object(RenderScheduler, "_send", lambda scheduler, draw, flying: draw()),
         patch.object(Counter, "ask", ask), patch.object(Counter, "watch", lambda *rest, **named: None),
     ):  # fmt: skip
         pn.state.location.search = link
         page.page()
-        yield Session(link, made, parts)
+        yield Opened(link, made, parts)
 
 
 ROLL, PLANES = "?v=2&tab=roll", "?v=2&tab=three-planes"

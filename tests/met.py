@@ -20,8 +20,8 @@ from app.model.measured import film
 from app.model.runs import Runs
 from app.model.votes.classroom import Refused, Rooms
 from app.page import page
-from app.state.keep import Keep
 from app.state.names import ROOMS, of
+from app.state.url_state import UrlState
 from app.tabs.learn.lesson import LessonView
 from app.tabs.learn.poll import Counter
 from app.tabs.learn.student import Phone
@@ -152,22 +152,22 @@ def today(link, what):
 
 @contextmanager
 def kept(link, every=False):
-    """A list of (Keep, owner, {parameter: Name}) of all that a page keeps. Of the views only those are made, at once,
-    that keep something of this link or may set it back, because the others take most of the time; every: all that are
-    looked at."""
-    parts, add, fill = [], Keep.add, rooms.Place.fill
+    """A list of (UrlState, owner, {parameter: Name}) of all that a page keeps. Of the views only those are made, at
+    once, that keep something of this link or may set it back, because the others take most of the time; every: all that
+    are looked at."""
+    parts, add, fill = [], UrlState.add, rooms.Place.fill
     keeping = {"lab", "learn", "maps", "measure"}
 
-    def noted(keep, owner, *rest, **named):
-        add(keep, owner, *rest, **named)
-        parts.append((keep, owner, of(type(owner).__name__)))
+    def noted(url_state, owner, *rest, **named):
+        add(url_state, owner, *rest, **named)
+        parts.append((url_state, owner, of(type(owner).__name__)))
 
     def filled(place):
         if every or place.column.name.removeprefix("place-of-") in keeping:
             fill(place)
 
     places = patch.multiple(rooms.Place, fill=filled, ask=filled)
-    with patch.object(Keep, "add", noted), places:
+    with patch.object(UrlState, "add", noted), places:
         yield parts
 
 
@@ -178,10 +178,10 @@ def opens(link):
         shown = page.page()
         if not parts:
             return of_phone(shown)
-        keep = parts[0][0]
+        url_state = parts[0][0]
         owners = {type(owner).__name__: owner for _, owner, _ in parts}
         start, room = owners["Explorer"], owners["Rooms"].room
-        said = [keep.sentence, *start.scene.messages.values()]
+        said = [url_state.sentence, *start.scene.messages.values()]
         said += [said for view in views for said in said_by(view)]
         found = {
             "language": text.spoken(), "room": room, "level": owners["Rooms"].level, "table": start.table,

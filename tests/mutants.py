@@ -65,7 +65,7 @@ FIRST = {
 }
 OF_APP = {
     **{
-        name: files("scene explorer pacing keep derivation export")
+        name: files("scene explorer scheduling url_state derivation export")
         for name in ("explorer", "scene", "marks", "region", "frames", "bodies")
     },
     "hands": ["test_hands.py"],

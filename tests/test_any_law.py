@@ -11,8 +11,8 @@ from app.model import tell
 from app.model.lab.lab import Lab
 from app.model.setup import LAWS, TOYS
 from app.model.start import Start, arrives
-from app.state.keep import explorer_of, read
 from app.state.opened import opened
+from app.state.url_state import explorer_of, read
 from app.tabs.lab.lab import LabTab
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, State, Viscous, slide
 
@@ -108,39 +108,39 @@ def test_a_link_opens_with_both(query, static, sliding):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_explore_research_and_back_is_the_same_start(law):
-    with visitor("") as (house, seen):
-        house.explorer.param.update(law=law, gamma=0.5)
-        house.keep.at_rest()
-        before, scene = house.explorer.setup, house.lab_of.scene
+    with visitor("") as (session, seen):
+        session.explorer.param.update(law=law, gamma=0.5)
+        session.url_state.commit()
+        before, scene = session.explorer.setup, session.lab_of.scene
         seen.level = "research"
-        house.keep.at_rest()
-        texts = parse_qs(house.keep.query[1:])
+        session.url_state.commit()
+        texts = parse_qs(session.url_state.query[1:])
         assert texts["law"] == [law] if law != "contact" else "law" not in texts
-        assert "mu" not in texts and house.lab_of.scene is scene
-        with visitor(house.keep.query) as (other, _):
+        assert "mu" not in texts and session.lab_of.scene is scene
+        with visitor(session.url_state.query) as (other, _):
             assert other.explorer.setup == before
         seen.level = "explore"
-        house.keep.at_rest()
-        assert house.explorer.setup == before and house.lab_of.scene is scene
-        with visitor(house.keep.query) as (other, _):
+        session.url_state.commit()
+        assert session.explorer.setup == before and session.lab_of.scene is scene
+        with visitor(session.url_state.query) as (other, _):
             assert other.explorer.setup == before
             assert other.lab_of.scene.motions["ordinary"].start.friction == before.friction
 
 
 def test_a_law_is_undone():
-    with visitor("") as (house, _):
-        house.explorer.law = "viscous"
-        house.keep.at_rest()
-        assert "law=viscous" in house.keep.query
-        house.keep.undo()
-        assert house.explorer.law == "contact" and not house.keep.query
-        assert house.lab_of.scene.start.law == "contact"
+    with visitor("") as (session, _):
+        session.explorer.law = "viscous"
+        session.url_state.commit()
+        assert "law=viscous" in session.url_state.query
+        session.url_state.undo()
+        assert session.explorer.law == "contact" and not session.url_state.query
+        assert session.lab_of.scene.start.law == "contact"
 
 
 def test_a_place_on_a_map_is_watched_with_the_contact_of_the_map():
-    with visitor("?v=3&law=viscous&gamma=.7&patch=2") as (house, _):
-        house._throw("Top S", 20.0, 10.0, 0.25, False)
-        assert house.explorer.setup.friction == Contensou(0.25, 0.5 / 20)
+    with visitor("?v=3&law=viscous&gamma=.7&patch=2") as (session, _):
+        session._throw("Top S", 20.0, 10.0, 0.25, False)
+        assert session.explorer.setup.friction == Contensou(0.25, 0.5 / 20)
 
 
 @pytest.mark.parametrize(("law", "inputs"), [

@@ -4,17 +4,17 @@ import math
 
 import pytest
 from bokeh.document import Document
-from house import builder_of
+from doubles import builder_of
 from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
 from app.model.playing import Playing, together
 from app.state.codecs import Numbers
-from app.state.keep import Keep
+from app.state.url_state import UrlState
 from app.tabs.build.build import Build
 from app.tabs.lab.rolling import Rolling
 from app.widgets.controls import Controls
-from app.widgets.pacing import Pacer
+from app.widgets.scheduling import RenderScheduler
 from app.widgets.surface3d import Surface3D
 from app.widgets.top3d import Top3D
 
@@ -33,9 +33,9 @@ def explorer():
 
 
 @pytest.fixture
-def pacer(explorer):
+def scheduler(explorer):
     with set_curdoc(Document()):
-        yield Pacer(explorer)
+        yield RenderScheduler(explorer)
 
 
 @pytest.fixture
@@ -59,20 +59,20 @@ def lists(value, *others):
 
 
 @pytest.mark.slow
-def test_a_dial_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
-    controls = Controls(explorer.scene, pacer.ask)
+def test_a_dial_passes_over_what_it_never_sends(explorer, scheduler, value, one_line):
+    controls = Controls(explorer.scene, scheduler.ask)
     control = controls.numbers
     for typed, wish in ((False, 6.0), (True, "6")):
         for sent in lists(value, 1, "K_J", wish, typed):
             control.view.asked = sent
             assert math.isfinite(explorer.scene.constants.K_J)
     control.view.asked = [99, "K_J", 6.25, False]
-    assert pacer._wanted.get("K_J", explorer.K_J) == 6.25
+    assert scheduler._wanted.get("K_J", explorer.K_J) == 6.25
 
 
 @pytest.mark.slow
-def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
-    [[place], draws] = Rolling(pacer, None, None).surface()
+def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, scheduler, value, one_line):
+    [[place], draws] = Rolling(scheduler, None, None).surface()
     draws["pictures"](explorer.scene)
     [surface] = place.select(Surface3D)
     for name, right in (("hand", ("line", 0.5, 6.0)), ("picked", (6.0, 0.5))):
@@ -97,13 +97,13 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
 
 
 @pytest.mark.slow
-def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line):
-    keep, playing = Keep(), Playing()
-    controls = Controls(pacer._explorer.scene, pacer.ask)
+def test_what_has_no_word_in_a_link_goes_back_to_what_was(scheduler, value, one_line):
+    url_state, playing = UrlState(), Playing()
+    controls = Controls(scheduler._explorer.scene, scheduler.ask)
     top = Top3D()
     together(playing, top)
-    keep.add(playing)
-    keep.add(controls)
+    url_state.add(playing)
+    url_state.add(controls)
     for owner, name in ((top, "camera"), (top, "speed"), (controls, "face")):
         before = getattr(owner, name)
         for sent in (value, [value], [1.0, value, 2.0]):
@@ -111,9 +111,9 @@ def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line
                 setattr(owner, name, sent)
             except ValueError:  # raised by the widget itself
                 continue
-            keep.at_rest()
+            url_state.commit()
         good = [] if name == "camera" else before
         assert getattr(owner, name) in (good, [1.0, 1e308, 2.0], [1.0, -1, 2.0], 0, 1) or value in ((), 1)
-    keep.at_rest()
-    assert all(part not in keep.query for part in ("nan", "inf", "x" * 100))
+    url_state.commit()
+    assert all(part not in url_state.query for part in ("nan", "inf", "x" * 100))
     assert Numbers(3).text([1, 2, 3]) == "1_2_3"

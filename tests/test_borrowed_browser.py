@@ -44,7 +44,7 @@ def test_docs_list_all_that_is_borrowed():
     """Those of Python too, in the order of the files."""
     python = [int(number) for number in re.findall(r"(?m)^    \"\"\"(\d+)\.", (APP / "borrowed.py").read_text("utf-8"))]
     python = sorted({*python, 3})  # which is in mend(), with two others
-    part = (APP.parent / "docs/house.md").read_text(encoding="utf-8").partition("## Borrowed keys")[2]
+    part = (APP.parent / "docs/architecture.md").read_text(encoding="utf-8").partition("## Borrowed keys")[2]
     listed = [int(number) for number in re.findall(r"^\| (?:`[\w./]+` )?(\d+) \|", part, re.M)]
     assert listed == [*python, *numbers(BEFORE), *numbers(BUNDLED)]
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from axe import DARK, LIGHT, check
-from house import by_hand
+from doubles import by_hand
 from playwright.sync_api import expect
 from visiting import IN_SIGHT, PIXEL, Visit, entry, open_panel, wait
 

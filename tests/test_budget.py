@@ -19,7 +19,7 @@ from wire import run
 
 from app.model.runs import to_session
 from app.server import sockets
-from app.server.door import Budget
+from app.server.admission import Budget
 from app.server.loop import CHARGED, charging, in_one_thread
 from app.server.sockets import Socket
 from app.turns import Turns
@@ -30,7 +30,7 @@ class Clock:
 
     def __init__(self, monkeypatch):
         self.now = 0.0
-        monkeypatch.setattr("app.server.door.time", self)
+        monkeypatch.setattr("app.server.admission.time", self)
         monkeypatch.setattr(Budget, "_paid", 0.0)
 
     def thread_time(self):
@@ -254,7 +254,7 @@ def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
     monkeypatch.setattr("app.server.sockets.asyncio", SimpleNamespace(sleep=asleep))
     socket = Socket.__new__(Socket)
     socket.connection = SimpleNamespace(session=SimpleNamespace())
-    socket.application = SimpleNamespace(door=SimpleNamespace(moved=lambda took: None))
+    socket.application = SimpleNamespace(admission=SimpleNamespace(moved=lambda took: None))
     socket.ws_connection = SimpleNamespace(is_closing=lambda: False)
     socket.request, socket.receiver = SimpleNamespace(remote_ip="10.0.0.7"), SimpleNamespace(consume=nothing)
     socket._answer = nothing

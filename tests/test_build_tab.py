@@ -5,7 +5,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from house import builder_of
+from doubles import builder_of
 
 from app.model.build.builder import Rocking
 from app.model.build.dimensions import FAMILIES, INSIDES, changed, sentence, value_of

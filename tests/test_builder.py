@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from house import builder_of
+from doubles import builder_of
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from house import builder_of
+from doubles import builder_of
 
 from app.model.build.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer

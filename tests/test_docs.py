@@ -16,8 +16,8 @@ import pytest
 from claims import ROWS
 
 import tippe_core
-from app.state.keep import explorer_of, read
 from app.state.names import NAMES
+from app.state.url_state import explorer_of, read
 from app.text import LANGUAGES, listed
 from tippe_core import Top
 
@@ -129,7 +129,7 @@ def test_every_row_is_on_the_page_with_evidence():
 
 
 def test_the_house_names_files_that_are_there():
-    named = re.findall(r"`((?:app|tippe_core)/[\w/]+\.\w+)`", text("house"))
+    named = re.findall(r"`((?:app|tippe_core)/[\w/]+\.\w+)`", text("architecture"))
     assert len(named) > 20 and [name for name in named if not (DOCS.parent / name).is_file()] == []
 
 

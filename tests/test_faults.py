@@ -20,7 +20,7 @@ from visiting import free_port, go_to, texts, wait
 from watching import LOST as LOST_SERVER
 from wire import Visitor, get, run
 
-from app.server.door import Door
+from app.server.admission import Admission
 from app.server.server import FRESH
 from app.server.settings import Settings
 from app.server.sockets import SOCKETS, Socket
@@ -171,10 +171,10 @@ def session(connections, name=""):
     ],
 )
 def test_the_reason_begins_with_its_name_for_which_the_page_has_words(reason, how):
-    door = Door(Settings(**how.get("limits", {})), SimpleNamespace(sessions=how.get("sessions", [])))
-    door.sockets, door.stopping = how.get("sockets", []), how.get("stopping", False)
+    admission = Admission(Settings(**how.get("limits", {})), SimpleNamespace(sessions=how.get("sessions", [])))
+    admission.sockets, admission.stopping = how.get("sockets", []), how.get("stopping", False)
     socket, closed = Socket.__new__(Socket), []
-    socket.application = SimpleNamespace(door=door, secret_key=SECRET)
+    socket.application = SimpleNamespace(admission=admission, secret_key=SECRET)
     socket.request = SimpleNamespace(remote_ip="127.0.0.1")
     socket.token = generate_jwt_token(MINE, secret_key=SECRET, signed=True, expiration=how.get("expiration", FRESH))
     socket.close = lambda *how: closed.append(how)

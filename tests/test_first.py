@@ -14,8 +14,8 @@ from playwright.sync_api import expect
 from watching import LOST
 
 from app.page import first
-from app.state.keep import read
 from app.state.opened import FIRST, opened
+from app.state.url_state import read
 
 MOST, WHOLE = 350_000, 1_200_000  # bytes, compressed: before the first frame, and before the page is idle
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from house import builder_of, by_hand
+from doubles import builder_of, by_hand
 from scipy.spatial.transform import Rotation
 
 from app.model.explorer import Explorer
@@ -13,7 +13,7 @@ from app.model.hands import pulled
 from app.model.playing import Playing, together
 from app.model.roll.levers import levers
 from app.model.run import on
-from app.widgets.pacing import Pacer
+from app.widgets.scheduling import RenderScheduler
 from app.widgets.top3d import Top3D
 from tippe_core import PRESETS, Coulomb, State, slide, turning_points
 
@@ -143,44 +143,44 @@ def test_a_picture_and_what_is_kept_of_it_go_together_both_ways():
     assert not second.playing and not playing.playing and second.time == first.time == 3.0
 
 
-# ---- the Pacer ----
+# ---- the RenderScheduler ----
 
 
 @pytest.fixture
-def pacer(monkeypatch):
-    for module in ("pacing", "rest"):
+def scheduler(monkeypatch):
+    for module in ("scheduling", "rest"):
         monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, then: None)
-    return Pacer(Explorer())
+    return RenderScheduler(Explorer())
 
 
-def test_what_shows_a_scene_shows_the_present_one_at_once(pacer):
+def test_what_shows_a_scene_shows_the_present_one_at_once(scheduler):
     """So that a view can be created at any time."""
     shown = []
     for when in ("hand", "pictures", "rest"):
-        pacer.shows(shown.append, when)
-    assert len(shown) == 3 and all(scene is pacer._explorer.scene for scene in shown)
+        scheduler.shows(shown.append, when)
+    assert len(shown) == 3 and all(scene is scheduler._explorer.scene for scene in shown)
 
 
-def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
+def test_what_costs_much_is_shown_once_all_is_still(scheduler, monkeypatch):
     """Not between the steps of a drag that continues."""
     timers, shown = [], []
-    for module in ("pacing", "rest"):
+    for module in ("scheduling", "rest"):
         monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, act: timers.append(act))
-    pacer.shows(lambda scene: shown.append(scene.constants.K_J), "still")
-    pacer.begin()
+    scheduler.shows(lambda scene: shown.append(scene.constants.K_J), "still")
+    scheduler.begin()
     timers.clear()
     shown.clear()
 
     def rest():
         """Runs all timers that were set, as when a person stops moving."""
-        pacer._rest._last -= 1  # as if long ago
+        scheduler._rest._last -= 1  # as if long ago
         due, timers[:] = timers[:], []
         for act in due:
             act()
-        pacer.painted.painted = pacer._sent
+        scheduler.painted.painted = scheduler._sent
 
     for K_J in (6.0, 6.1):
-        pacer.ask(K_J=K_J)
+        scheduler.ask(K_J=K_J)
         rest()
     assert shown == []
     for _ in range(5):
@@ -188,7 +188,7 @@ def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
     assert shown == [6.1]
 
 
-def test_what_fails_to_show_a_scene_keeps_no_other_from_it(pacer):
+def test_what_fails_to_show_a_scene_keeps_no_other_from_it(scheduler):
     shown, fails = [], []
 
     def fail(scene):
@@ -196,8 +196,8 @@ def test_what_fails_to_show_a_scene_keeps_no_other_from_it(pacer):
             raise ZeroDivisionError
 
     for show in (fail, shown.append):
-        pacer.shows(show, "hand")
+        scheduler.shows(show, "hand")
     fails.append(True)
     with pytest.raises(ZeroDivisionError):
-        pacer.ask(K_J=6.0)
+        scheduler.ask(K_J=6.0)
     assert shown[-1].constants.K_J == 6.0

@@ -4,7 +4,7 @@ from queue import Queue
 
 import numpy as np
 import pytest
-from house import lab_of
+from doubles import lab_of
 
 from app.model import life
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY

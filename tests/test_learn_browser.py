@@ -16,7 +16,7 @@ from app.model.explorer import Explorer
 from app.model.lesson import lesson, parts
 from app.model.published import curves as curves_of
 from app.model.roll import derivation
-from app.state.keep import read
+from app.state.url_state import read
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.published import Steps, curve_said
 from app.tabs.learn.teach import link

@@ -18,7 +18,7 @@ from panel.viewable import Viewable
 from serving import until
 from wire import run
 
-from app.page.house import House
+from app.page.session import Session
 from app.text import say
 from app.widgets.download import Download
 
@@ -182,7 +182,7 @@ def has_map(part, root=None, changed=None, *_, **__):
 async def open_a_room_that_fails(here, monkeypatch):
     """Where it is made, where Panel's hooks see it, and where Panel makes its models; each time another room opens."""
     # a page keeps the methods that it finds when it comes
-    failures = [once(monkeypatch, House, "families"), once(monkeypatch, Viewable, "_preprocess", has_map),
+    failures = [once(monkeypatch, Session, "families"), once(monkeypatch, Viewable, "_preprocess", has_map),
                 once(monkeypatch, Bokeh, "_get_model", is_map)]  # fmt: skip
     page = await visitors.come(here.url + "?tab=lab")
 

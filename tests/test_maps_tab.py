@@ -12,8 +12,8 @@ from app.model.maps.maps import OWN, Map
 from app.model.runs import Full, Runs, Stopped
 from app.model.scene import solve as solve_scene
 from app.server.messages import CHANGES
-from app.state.keep import Keep, read
 from app.state.map_text import MapText
+from app.state.url_state import UrlState, read
 from app.tabs.maps.maps import Maps
 from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import Steady
@@ -187,23 +187,23 @@ def test_pieces_are_shown_while_it_is_drawn(tab, monkeypatch):
 
 def test_the_map_is_in_the_address_and_undone():
     tab = Maps()
-    keep = Keep()
-    keep.add(tab.choice)
-    tab.choice.param.watch(lambda *events: keep.at_rest(), [*tab.choice.INPUTS])
-    assert keep.query == ""
+    url_state = UrlState()
+    url_state.add(tab.choice)
+    tab.choice.param.watch(lambda *events: url_state.commit(), [*tab.choice.INPUTS])
+    assert url_state.query == ""
     tab.settings.entries["cells"].value = "3"
     tab.settings.choices["law"].value = "smoothed"
     tab.settings.entries["mu"].value = "0.25"
     asked = tab.choice.asked
-    texts, sentence = read(keep.query)
+    texts, sentence = read(url_state.query)
     again = MapText.value(texts["map"])
     assert not sentence and again == asked and dict(again.values) == {"mu": 0.25}
-    keep.undo()
+    url_state.undo()
     assert tab.settings.entries["mu"].value == "0.3" and tab.asked.values == ()
-    keep.undo()
+    url_state.undo()
     assert tab.asked.law == "contensou"
-    keep.redo()
-    keep.redo()
+    url_state.redo()
+    url_state.redo()
     assert tab.choice.asked == asked
     for odd in ("", "spin", "_".join(["spin"] * 10), MapText.text(asked) + "_mu", MapText.text(asked) + "_own_3"):
         with pytest.raises(ValueError):

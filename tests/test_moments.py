@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from house import by_hand
+from doubles import by_hand
 
 from app.model.lab.lab import scene_of
 from app.model.lab.moments import MOST, moments

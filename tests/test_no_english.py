@@ -26,7 +26,7 @@ NOT_SAID = {
        for name in ("export.py", "measured/examples.py", "measured/report.py", "glb.py", "programs.py",
                     "saved_runs.py")},
     "codecs.py": {"not one of {}": "said to the log"},
-    **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
+    **{name: {"": "said to who writes the page"} for name in ("url_state.py", "names.py")},
     "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "desk.py", "files.py", "health.py", "logs.py",

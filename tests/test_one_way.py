@@ -16,7 +16,7 @@ import pytest
 from bokeh.document import Document
 from bokeh.models import ColumnDataSource, Label, Range1d, Span
 from bokeh.plotting import figure as Figure
-from house import Shown
+from doubles import Shown
 from panel.custom import JSComponent
 from panel.io.state import set_curdoc
 
@@ -28,7 +28,7 @@ from app.model.playing import Playing
 from app.model.scene import Scene, solve
 from app.model.setup import Setup
 from app.share.share import Share
-from app.state.keep import Keep
+from app.state.url_state import UrlState
 from app.tabs.build.build import Build
 from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
@@ -40,8 +40,8 @@ from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
 from app.widgets.controls import FACES, Controls
 from app.widgets.guide import Guide
-from app.widgets.pacing import Pacer
 from app.widgets.portraits import Force, Potential, Ring
+from app.widgets.scheduling import RenderScheduler
 from app.widgets.surface3d import Surface3D, show_surface
 from tippe_core import PRESETS, Constants, Top
 
@@ -147,7 +147,7 @@ def section(scene):
 
 
 def share(scene):
-    view = Share(Keep(), Playing(), scene)
+    view = Share(UrlState(), Playing(), scene)
     view.open()
 
     def show(scene):
@@ -260,13 +260,13 @@ def shown(make, *scenes):
 
 @pytest.fixture
 def alone(monkeypatch):
-    """Neither an Explorer nor a Pacer is created."""
+    """Neither an Explorer nor a RenderScheduler is created."""
 
     def refuse(self, *inputs, **named):
         raise AssertionError("a view made it")
 
     monkeypatch.setattr(Explorer, "__init__", refuse)
-    monkeypatch.setattr(Pacer, "__init__", refuse)
+    monkeypatch.setattr(RenderScheduler, "__init__", refuse)
     with set_curdoc(Document()):
         yield
 
@@ -295,15 +295,15 @@ def test_the_figures_of_a_run_work_alone(alone, kind):
 
 def test_what_a_view_asks_is_all_that_it_does(alone):
     """Dragging in Fig. 6: the scene stays until another one is shown."""
-    pacer = Shown(stored(TOPS[0]))
-    view = Rolling(pacer, None, None)
+    scheduler = Shown(stored(TOPS[0]))
+    view = Rolling(scheduler, None, None)
     [place], draws = view.plane()
     [plane] = place
-    draws["hand"](pacer.scene)
+    draws["hand"](scheduler.scene)
     plane.hand = ["line", 0.5, 6.0]
-    [line] = pacer.asked
+    [line] = scheduler.asked
     assert line == {"K_J": 6.0, "given": "share"}
-    assert view._scene is pacer.scene and json.loads(plane.state)["K_J"] == 7.0
+    assert view._scene is scheduler.scene and json.loads(plane.state)["K_J"] == 7.0
 
 
 # ---- no view computes ----

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.state.keep import Keep, read
 from app.state.names import LEVELS, ROOMS
 from app.state.opened import level, opened, shortest
+from app.state.url_state import UrlState, read
 
 
 @pytest.mark.parametrize(("query", "room", "shown"), [
@@ -45,6 +45,6 @@ def test_what_goes_without_saying_opens_the_same(others, tab, shown):
 
 
 def test_a_page_as_it_comes_has_an_address_without_a_query():
-    keep = Keep({"tab": "lab", "level": "explore"}, shortest=shortest)
-    keep.at_rest()
-    assert keep.query == ""
+    url_state = UrlState({"tab": "lab", "level": "explore"}, shortest=shortest)
+    url_state.commit()
+    assert url_state.query == ""

@@ -21,12 +21,12 @@ from serving import answers, served, until
 from wire import Closed, Visitor, get, run
 
 from app.model.runs import Pool
-from app.server import ending
-from app.server.board import FIELDS, HEARD, Board
-from app.server.door import Door
-from app.server.ending import Ending
+from app.server import shutdown
+from app.server.admission import Admission
 from app.server.logs import Line, Seldom, refused, without_addresses
 from app.server.settings import Settings
+from app.server.shutdown import GracefulShutdown
+from app.server.worker_status import FIELDS, HEARD, Board
 from app.text import say
 
 forks = pytest.mark.skipif(sys.platform == "win32", reason="processes share a socket by fork")
@@ -34,7 +34,7 @@ forks = pytest.mark.skipif(sys.platform == "win32", reason="processes share a so
 
 def test_who_says_nothing_any_more_is_not_asked(monkeypatch):
     board, now = Board(2), [100.0]
-    monkeypatch.setattr("app.server.board.time", SimpleNamespace(monotonic=lambda: now[0]))
+    monkeypatch.setattr("app.server.worker_status.time", SimpleNamespace(monotonic=lambda: now[0]))
     for board.mine in (0, 1):
         board.write(**dict.fromkeys(FIELDS, board.mine))
     assert [row["sessions"] for row in board.read().values()] == [0, 1]
@@ -69,7 +69,7 @@ def test_a_refusal_is_logged_once_in_ten_seconds_for_each_address_and_then_with_
 
 
 class Kept:
-    """A session, as far as the door looks at it."""
+    """A session, as far as the admission looks at it."""
 
     def __init__(self, address, connections):
         self.address, self.connection_count, self.expires = address, connections, False
@@ -81,24 +81,24 @@ class Kept:
 def test_what_sessions_left_behind_hold_is_counted_to_their_address():
     """An address that opens and closes pages keeps itself out, and nobody else."""
     sessions = [Kept("a", 0) for _ in range(3)] + [Kept("b", 1)]
-    door = Door(Settings(sessions=4, sessions_per_address=3), SimpleNamespace(sessions=sessions))
-    door.sockets = [SimpleNamespace(address="b")]
-    assert door.refusal("a") == "crowded" and not door.full
-    assert door.refusal("b") is None and [each.expires for each in sessions] == [True, True, True, False]
+    admission = Admission(Settings(sessions=4, sessions_per_address=3), SimpleNamespace(sessions=sessions))
+    admission.sockets = [SimpleNamespace(address="b")]
+    assert admission.refusal("a") == "crowded" and not admission.full
+    assert admission.refusal("b") is None and [each.expires for each in sessions] == [True, True, True, False]
     sessions[:] = [Kept("a", 1) for _ in range(4)]
-    assert door.refusal("b") == "full" and door.full
+    assert admission.refusal("b") == "full" and admission.full
 
 
 def test_no_more_pages_are_let_in_than_the_memory_of_the_container_has_room_for(monkeypatch):
     monkeypatch.setattr("app.server.settings.memory_limit", lambda: 2 * 2**30)
     assert (Settings.of({}).sessions, Settings.of({"TIPPE_WORKERS": "2"}).sessions) == (204, 83)
     assert Settings.of({"TIPPE_SESSIONS": "9"}).sessions == 9
-    monkeypatch.setattr("app.server.door.memory_limit", lambda: 1e9)
-    monkeypatch.setattr("app.server.door.memory", lambda: used[0])
-    door, used = Door(Settings(sessions=4), SimpleNamespace(sessions=[])), [0.8e9]
-    assert door.refusal("a") is None
+    monkeypatch.setattr("app.server.admission.memory_limit", lambda: 1e9)
+    monkeypatch.setattr("app.server.admission.memory", lambda: used[0])
+    admission, used = Admission(Settings(sessions=4), SimpleNamespace(sessions=[])), [0.8e9]
+    assert admission.refusal("a") is None
     used[0] = 0.95e9
-    assert door.refusal("a") == "full" and door.full
+    assert admission.refusal("a") == "full" and admission.full
 
 
 def test_a_pool_knows_how_many_wait_and_waited():
@@ -125,22 +125,22 @@ def test_pages_are_sent_elsewhere_one_after_the_other(pages, drain, signals, sle
     async def asleep(seconds):
         did.append(seconds)
 
-    monkeypatch.setattr(ending, "asyncio", SimpleNamespace(sleep=asleep))
-    monkeypatch.setattr(ending, "signal", SimpleNamespace(SIGINT=signal.SIGINT))
+    monkeypatch.setattr(shutdown, "asyncio", SimpleNamespace(sleep=asleep))
+    monkeypatch.setattr(shutdown, "signal", SimpleNamespace(SIGINT=signal.SIGINT))
     told = SimpleNamespace(close=lambda code, words: did.append("told"))
     loop = SimpleNamespace(add_callback_from_signal=lambda act: begun.append(act), stop=lambda: did.append("stopped"))
-    monkeypatch.setattr(ending, "IOLoop", SimpleNamespace(current=lambda: loop))
+    monkeypatch.setattr(shutdown, "IOLoop", SimpleNamespace(current=lambda: loop))
     arrivals = SimpleNamespace(stop=lambda: did.append("closed"), sockets=[])
-    begun, door = [], SimpleNamespace(sockets=[told] * pages, stopping=False)
-    end = Ending(SimpleNamespace(drain=drain), door, arrivals, SimpleNamespace(stop=lambda wait: None))
+    begun, admission = [], SimpleNamespace(sockets=[told] * pages, stopping=False)
+    end = GracefulShutdown(SimpleNamespace(drain=drain), admission, arrivals, SimpleNamespace(stop=lambda wait: None))
     for each in signals:
         end.begin(each)
     [act] = begun
     run(act())
-    assert door.stopping and end.code == 0
+    assert admission.stopping and end.code == 0
     between = [each for each in did if isinstance(each, float | int)]
     assert sum(between[:-1]) == pytest.approx(sum(slept)) and did.count("told") == pages
-    assert did[-3:] == ["closed", ending.LAST, "stopped"]
+    assert did[-3:] == ["closed", shutdown.LAST, "stopped"]
     if slept:
         assert did[:2] == ["told", pytest.approx(slept[0] / 10)] and did[11] == "told"
 
@@ -179,7 +179,7 @@ def test_the_unit_of_systemd_sets_what_there_is_and_waits_long_enough():
     known = {name: value for name, value in variables.items() if name.startswith("TIPPE_")}
     settings = Settings.of(known, command.split())
     assert (settings.prefix, settings.proxy, settings.workers, settings.memory) == ("/tops", 1, 2, 800)
-    assert int(re.findall(r"TimeoutStopSec=(\d+)", unit)[0]) >= settings.drain + ending.GRACE
+    assert int(re.findall(r"TimeoutStopSec=(\d+)", unit)[0]) >= settings.drain + shutdown.GRACE
 
 
 def test_metrics_need_their_package(monkeypatch):

@@ -18,7 +18,7 @@ from app.model.run import on
 from app.model.runs import Runs
 from app.model.setup import TOYS
 from app.state import names
-from app.state.keep import explorer_of, read
+from app.state.url_state import explorer_of, read
 from app.tabs.lab.lab import LabTab
 from app.tabs.learn.published import EXPLANATIONS, LAWS, RESULTS, Steps, published_view
 from app.text import LANGUAGES, listed

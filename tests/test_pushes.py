@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from house import lab_of
+from doubles import lab_of
 from scipy.spatial.transform import Rotation
 
 from app.model.keeps import KINDS, keeps
@@ -19,7 +19,7 @@ from app.model.story import story
 from app.server.messages import CHANGES
 from app.share.saved_runs import Shown, caption, run_csv, run_python
 from app.state.codecs import Pushes
-from app.state.keep import explorer_of, kept, read
+from app.state.url_state import explorer_of, kept, read
 from app.text import speaking
 from tippe_core import grip, roll, slide
 
@@ -167,16 +167,16 @@ def test_a_link_holds_it_and_undo_takes_it_away():
     assert explorer.pushes == (SOFT, LATER) == explorer.setup.pushes
     keep = kept(explorer)
     assert keep.query == f"?v=4&push={TEXT}"
-    keep.at_rest()
+    keep.commit()
     explorer.pushes = ()
-    keep.at_rest()
+    keep.commit()
     keep.undo()
     assert explorer.pushes == (SOFT, LATER)
     explorer.later(table="ice")
     assert explorer.pushes  # it is the same motion on another table
     explorer.later(mu=0.4)
     assert explorer.pushes == ()  # of another motion
-    keep.at_rest()
+    keep.commit()
     keep.undo()
     assert (explorer.mu, explorer.pushes) == (0.3, (SOFT, LATER))
 

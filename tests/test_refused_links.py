@@ -9,8 +9,8 @@ import pytest
 from app.model.explorer import Explorer
 from app.model.lab.allowed import LIMITS
 from app.model.lab.lab import Lab
-from app.state.keep import explorer_of, read, values
 from app.state.names import ROWS, VERSION_NAME
+from app.state.url_state import explorer_of, read, values
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 from tippe_core import Top, strongest_friction

@@ -3,28 +3,28 @@
 import panel as pn
 import pytest
 from bokeh.document import Document
-from house import keeping
+from doubles import keeping
 from panel.io.state import set_curdoc
 
 from app.model.runs import Runs
-from app.page.house import House
 from app.page.page import page
+from app.page.session import Session
 from app.widgets.rooms import taken_apart
 
 
 @pytest.mark.parametrize("level", ["explore", "research"])
 def test_a_lab_whose_level_changes_while_it_comes_is_whole(monkeypatch, level):
     made = {}
-    monkeypatch.setattr(House, "__init__", keeping(made, House.__init__))
-    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())
+    monkeypatch.setattr(Session, "__init__", keeping(made, Session.__init__))
+    monkeypatch.setattr("app.page.session.Runs", lambda *session: Runs())
     with set_curdoc(Document()):
         pn.state.location.search = f"?v=4&tab=learn&level={level}"
         page()
-        house = made[House]
-        view = house.makers["lab"]()
+        session = made[Session]
+        view = session.makers["lab"]()
         puts = taken_apart(view, 1)
         other = "explore" if level == "research" else "research"
-        house.level = other
+        session.level = other
         for put in puts:
             put()
         names = [type(part).__name__ for part in view]

@@ -9,7 +9,7 @@ from queue import Queue
 
 import numpy as np
 import pytest
-from house import lab_of
+from doubles import lab_of
 from run_pages import PATIENCE, Page, all_busy, one_page, told
 from serving import until
 

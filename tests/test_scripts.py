@@ -85,7 +85,7 @@ def test_no_component_hides_what_all_have():
 
 SAID = re.compile(r"""dispatchEvent\(new CustomEvent\(["'`](tippe:[a-z]+)""")
 HEARD = re.compile(r"""\baddEventListener\(["'`](tippe:[a-z]+)""")
-HOUSE = FRONTEND.parent.parent / "docs/house.md"
+ARCHITECTURE = FRONTEND.parent.parent / "docs/architecture.md"
 
 
 def told(pattern):
@@ -101,8 +101,10 @@ def told(pattern):
 
 
 def test_the_list_of_events_is_whole():
-    """docs/house.md lists every event of the window, who sends it and who listens."""
-    rows = re.findall(r"^\| `(tippe:[a-z]+)` \|([^|]*)\|([^|]*)\| (.*) \|$", HOUSE.read_text(encoding="utf-8"), re.M)
+    """docs/architecture.md lists every event of the window, who sends it and who listens."""
+    rows = re.findall(
+        r"^\| `(tippe:[a-z]+)` \|([^|]*)\|([^|]*)\| (.*) \|$", ARCHITECTURE.read_text(encoding="utf-8"), re.M
+    )
     named = re.compile("`([^`]+)`")
     assert {event: {*named.findall(sent)} for event, sent, _, _ in rows} == told(SAID)
     assert {event: {*named.findall(heard)} for event, _, heard, _ in rows} == {

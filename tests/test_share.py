@@ -7,38 +7,38 @@ from types import SimpleNamespace
 import panel as pn
 import pytest
 from bokeh.document import Document
-from house import keeping
+from doubles import keeping
 from panel.io.state import set_curdoc
 
 import app.share.share
 from app.model.lab.lab import Lab
 from app.model.runs import Run, Runs
-from app.page.house import House
 from app.page.page import page
+from app.page.session import Session
 from app.share.panel import Files
 from app.share.share import Share
 from app.widgets.download import Download
-from app.widgets.pacing import Pacer
+from app.widgets.scheduling import RenderScheduler
 
 # ---- a page whose clock the test has ----
 
 
 @pytest.fixture
 def opened(monkeypatch):
-    """opened(query) gives a page with Share open: its house, share, and rest(), after which nothing moves and
+    """opened(query) gives a page with Share open: its session, share, and rest(), after which nothing moves and
     everything is painted."""
     made, timers = {}, []
 
-    for kind in (House, Share, Pacer):
+    for kind in (Session, Share, RenderScheduler):
         monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
     monkeypatch.setattr("app.widgets.rest.REST", 0.0)
-    for where in ("app.widgets.pacing", "app.widgets.rest"):
+    for where in ("app.widgets.scheduling", "app.widgets.rest"):
         monkeypatch.setattr(f"{where}.after", lambda seconds, then: timers.append(then))
-    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: results come at once
+    monkeypatch.setattr("app.page.session.Runs", lambda *session: Runs())  # no session: results come at once
 
     def rest():
         for _ in range(40):
-            made[Pacer].painted.painted = made[Pacer].painted.sent
+            made[RenderScheduler].painted.painted = made[RenderScheduler].painted.sent
             if timers:
                 timers.pop(0)()
 
@@ -47,10 +47,10 @@ def opened(monkeypatch):
         def opens(query):
             pn.state.location.search = query
             page()
-            made[Pacer]._begun = True
+            made[RenderScheduler]._begun = True
             rest()
             made[Share].toggle()
-            return SimpleNamespace(house=made[House], share=made[Share], rest=rest)
+            return SimpleNamespace(session=made[Session], share=made[Share], rest=rest)
 
         yield opens
 
@@ -67,7 +67,7 @@ def told(share):
 def test_while_it_is_open_it_is_of_the_start_that_its_link_opens(opened, tab):
     seen = opened(f"?v=2&tab={tab}&by=hand&spin=15")
     assert told(seen.share) == (15, 15, 15)
-    seen.house.lab_of.ask(spin=12.0)
+    seen.session.lab_of.ask(spin=12.0)
     seen.rest()
     assert told(seen.share) == (12, 12, 12)
     assert seen.share._files._link == seen.share._head.link
@@ -76,12 +76,12 @@ def test_while_it_is_open_it_is_of_the_start_that_its_link_opens(opened, tab):
 
 def test_a_hand_that_moves_has_nothing_solved_for_it_and_nothing_drawn(opened, monkeypatch):
     seen = opened("?v=2&tab=lab")
-    codes, solved, explorer = [], [], seen.house.explorer
+    codes, solved, explorer = [], [], seen.session.explorer
     real = app.share.share.segno.make
     monkeypatch.setattr(app.share.share.segno, "make", lambda *a, **b: codes.append(a[0]) or real(*a, **b))
     explorer.param.watch(lambda event: solved.append(event.new), "scene")
     for spin in (12.0, 13.0, 14.0):
-        seen.house.lab_of.ask(spin=spin)
+        seen.session.lab_of.ask(spin=spin)
     assert solved == codes == []
     seen.rest()
     assert len(solved) == 1 and codes == [seen.share.link]
@@ -91,7 +91,7 @@ def test_a_hand_that_moves_has_nothing_solved_for_it_and_nothing_drawn(opened, m
 
 def test_a_scene_that_no_link_has_yet_is_not_shown(opened):
     seen = opened("?v=2&tab=roll&KJ=6")
-    seen.house.pacer.ask(K_J=6.5)
+    seen.session.scheduler.ask(K_J=6.5)
     assert "KJ=6" in seen.share._head.link and seen.share._files._scene.constants.K_J == 6
     seen.rest()
     assert "KJ=6.5" in seen.share._head.link and seen.share._files._scene.constants.K_J == 6.5
@@ -100,13 +100,13 @@ def test_a_scene_that_no_link_has_yet_is_not_shown(opened):
 def test_a_run_is_saved_with_its_own_link_until_the_next_has_come(opened, monkeypatch):
     seen = opened("?v=2&tab=lab&by=hand&spin=15")
     held = []
-    runs = seen.house.runs
+    runs = seen.session.runs
     monkeypatch.setattr(Runs, "beside", True)
     monkeypatch.setattr(runs, "begin", lambda run, kind, *pool: held.append(run))
-    seen.house.lab_of.ask(spin=12.0)
+    seen.session.lab_of.ask(spin=12.0)
     seen.rest()
     what, link, _ = seen.share._files._saves["csv"]._state()
-    assert seen.house.lab_of.busy and "spin=12" in seen.share._head.link
+    assert seen.session.lab_of.busy and "spin=12" in seen.share._head.link
     assert "spin=15" in link and f"{what.setup.state.omega3:.6g}" == f"{15 * _turn(what):.6g}"
     assert len(held) == 1  # solving how this rolls has not started it again
     held[0].done(held[0].result())
@@ -119,7 +119,7 @@ def _turn(what):
 
 
 def test_a_lab_whose_run_is_under_way_is_not_disturbed_by_how_its_start_rolls(opened):
-    lab = opened("?v=2&tab=lab").house.lab_of
+    lab = opened("?v=2&tab=lab").session.lab_of
     lab.ask(spin=12.0)
     lab.rest()
     assert isinstance(lab, Lab) and lab.rests
@@ -173,6 +173,6 @@ def test_figures_in_python_are_written_anew_for_another_scene_alone(opened, monk
     monkeypatch.setattr(Files, "_show_python", lambda files: written.append(files._scene))
     seen.share.refresh()
     assert written == []
-    seen.house.pacer.ask(K_J=6.5)
+    seen.session.scheduler.ask(K_J=6.5)
     seen.rest()
     assert [scene.constants.K_J for scene in written] == [6.5]

@@ -19,9 +19,9 @@ from app.model.runs import Runs
 from app.model.setup import LAWS, TOYS
 from app.model.start import TABLES, Start, arrives, of_toy
 from app.page import page
-from app.page.house import House
-from app.state.keep import explorer_of, read
+from app.page.session import Session
 from app.state.names import LEVELS, ROOMS, ROWS, SECTIONS
+from app.state.url_state import explorer_of, read
 from app.text import LANGUAGES
 from app.widgets import rooms
 from tippe_core import PRESETS, BareSphere, Top, TruncatedSphere
@@ -191,7 +191,7 @@ def test_a_link_of_the_first_version_opens_the_start_of_its_view(query, opens):
 
 @contextmanager
 def visitor(search):
-    """(House, Rooms) of a page with this address; its results come at once, without where runs of all spins end."""
+    """(Session, Rooms) of a page with this address; its results come at once, without where runs of all spins end."""
     made = {}
 
     def no_ends(key, look):
@@ -207,18 +207,19 @@ def visitor(search):
         return patch.object(kind, "__init__", making)
 
     with (
-        set_curdoc(Document()), kept(House), kept(rooms.Rooms), patch("app.page.house.Runs", lambda *session: Runs()),
+        set_curdoc(Document()), kept(Session), kept(rooms.Rooms),
+        patch("app.page.session.Runs", lambda *session: Runs()),
         patch.object(rooms.Place, "ask", rooms.Place.fill), patch("app.model.lab.lab.ends_once", no_ends),
         patch("app.tabs.build.verdict.ends_once", no_ends),
     ):  # fmt: skip
         pn.state.location.search = search
         page.page()
-        yield made[House], made[rooms.Rooms]
+        yield made[Session], made[rooms.Rooms]
 
 
-def shown(house, seen):
+def shown(session, seen):
     """The numbers that determine which motion is shown."""
-    explorer = house.explorer
+    explorer = session.explorer
     explorer.settle()
     names = [name for name in Start.param if name not in ("name", *Start.GIVEN["hand"])]
     return {
@@ -227,89 +228,89 @@ def shown(house, seen):
     }  # fmt: skip
 
 
-def start_of_page(house):
+def start_of_page(session):
     """Everything that a person has set."""
-    return {name: getattr(house.explorer, name) for name in Start.param if name != "name"}
+    return {name: getattr(session.explorer, name) for name in Start.param if name != "name"}
 
 
 @pytest.mark.parametrize("table", TABLES)
 def test_research_and_back_sets_nothing_and_computes_nothing(table):
-    with visitor("") as (house, seen):
-        house.lab_of.ask(table=table, mu=0.12)
-        house.keep.at_rest()
-        start, scene, query = start_of_page(house), house.lab_of.scene, house.keep.query
+    with visitor("") as (session, seen):
+        session.lab_of.ask(table=table, mu=0.12)
+        session.url_state.commit()
+        start, scene, query = start_of_page(session), session.lab_of.scene, session.url_state.query
         for _ in range(2):
             seen.level = "research"
-            house.keep.at_rest()
-            assert start_of_page(house) == start and house.lab_of.scene is scene
-            assert house.keep.query == f"{query}&level=research"  # it says how much is open, and nothing else
+            session.url_state.commit()
+            assert start_of_page(session) == start and session.lab_of.scene is scene
+            assert session.url_state.query == f"{query}&level=research"  # it says how much is open, and nothing else
             seen.room = "learn"
             assert seen.first("lab") == "lab" and seen.level == "research"
             seen.room = "lab"
             seen.level = "explore"
-            house.keep.at_rest()
-            assert (house.keep.query, start_of_page(house)) == (query, start)
-        assert house.lab_of.scene is scene
-        house.keep.undo()  # the friction, the only step
-        assert house.explorer.mu == 0.3 and not house.keep.can_undo
+            session.url_state.commit()
+            assert (session.url_state.query, start_of_page(session)) == (query, start)
+        assert session.lab_of.scene is scene
+        session.url_state.undo()  # the friction, the only step
+        assert session.explorer.mu == 0.3 and not session.url_state.can_undo
 
 
 @pytest.mark.parametrize("table", ["ordinary", "rough"])
 def test_no_room_sets_anything_of_the_start_when_it_opens(table):
-    with visitor(f"?v=4&table={table}&mu_k=.12&spin=21&tilt=12") as (house, seen):
-        house.keep.at_rest()
-        start, undo = start_of_page(house), house.keep.can_undo
+    with visitor(f"?v=4&table={table}&mu_k=.12&spin=21&tilt=12") as (session, seen):
+        session.url_state.commit()
+        start, undo = start_of_page(session), session.url_state.can_undo
         for level in LEVELS:
             for name in (*ROOMS[1:], "lab"):
                 seen.param.update(room=name, level=level)
-                house.keep.at_rest()
-                assert (name, start_of_page(house), house.keep.can_undo) == (name, start, undo)
+                session.url_state.commit()
+                assert (name, start_of_page(session), session.url_state.can_undo) == (name, start, undo)
         seen.room = "learn"
         for section, step in zip(cycle(SECTIONS), STEP_NAMES, strict=False):
-            house._learn.param.update(section=section, step=step)
-        house.keep.at_rest()
-        assert (start_of_page(house), house.keep.can_undo) == (start, undo)
+            session._learn.param.update(section=section, step=step)
+        session.url_state.commit()
+        assert (start_of_page(session), session.url_state.can_undo) == (start, undo)
 
 
 STEPS = (
-    lambda house, seen: setattr(seen, "room", "lab"),
-    lambda house, seen: house.lab_of.ask(spin=21.0, tilt=12.0),
-    lambda house, seen: house.lab_of.ask(table="three"),
-    lambda house, seen: setattr(seen, "level", "research"),
-    lambda house, seen: house.explorer.param.update(K_J=4.0),
-    lambda house, seen: house.lab_of.ask(table="ordinary"),
-    lambda house, seen: house.explorer.param.update(law="coulomb", mu=0.2, mu_s=0.35),
-    lambda house, seen: setattr(seen, "level", "explore"),
-    lambda house, seen: house.lab_of.ask(mu=0.25),
-    lambda house, seen: house.lab_of.ask(table="rough"),
-    lambda house, seen: setattr(seen, "room", "build-a-top"),
+    lambda session, seen: setattr(seen, "room", "lab"),
+    lambda session, seen: session.lab_of.ask(spin=21.0, tilt=12.0),
+    lambda session, seen: session.lab_of.ask(table="three"),
+    lambda session, seen: setattr(seen, "level", "research"),
+    lambda session, seen: session.explorer.param.update(K_J=4.0),
+    lambda session, seen: session.lab_of.ask(table="ordinary"),
+    lambda session, seen: session.explorer.param.update(law="coulomb", mu=0.2, mu_s=0.35),
+    lambda session, seen: setattr(seen, "level", "explore"),
+    lambda session, seen: session.lab_of.ask(mu=0.25),
+    lambda session, seen: session.lab_of.ask(table="rough"),
+    lambda session, seen: setattr(seen, "room", "build-a-top"),
 )  # fmt: skip
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("toy", "language"), [*zip((TOY, PAPER), LANGUAGES, strict=True)])
 def test_links_of_the_steps_open_the_same_and_undo_goes_back_through_the_tables(toy, language):
-    with visitor(f"?lang={language}&tab=lab") as (house, seen):
-        house.lab_of.ask(toy=toy)
-        house.keep.at_rest()
-        steps = [shown(house, seen)]
+    with visitor(f"?lang={language}&tab=lab") as (session, seen):
+        session.lab_of.ask(toy=toy)
+        session.url_state.commit()
+        steps = [shown(session, seen)]
         for step in STEPS:
-            step(house, seen)
-            house.keep.at_rest()
-            assert f"lang={language}" in house.keep.query
-            steps.append(shown(house, seen))
+            step(session, seen)
+            session.url_state.commit()
+            assert f"lang={language}" in session.url_state.query
+            steps.append(shown(session, seen))
             if len(steps) % 3 == 2:
-                with visitor(house.keep.query) as (other, their):
+                with visitor(session.url_state.query) as (other, their):
                     assert shown(other, their) == steps[-1]
-                    assert other.keep.query == house.keep.query
-        house.keep.undo()  # the friction
-        assert house.explorer.mu == 0.2
-        house.keep.undo()  # the law
-        assert (house.explorer.law, house.explorer.K_J) == (steps[4]["law"], 4.0)
-        house.keep.undo()  # the rolling motion
-        assert (house.explorer.given, house.explorer.spin, house.explorer.tilt) == ("hand", 21.0, 12.0)
+                    assert other.url_state.query == session.url_state.query
+        session.url_state.undo()  # the friction
+        assert session.explorer.mu == 0.2
+        session.url_state.undo()  # the law
+        assert (session.explorer.law, session.explorer.K_J) == (steps[4]["law"], 4.0)
+        session.url_state.undo()  # the rolling motion
+        assert (session.explorer.given, session.explorer.spin, session.explorer.tilt) == ("hand", 21.0, 12.0)
         for _ in range(3):
-            house.keep.redo()
-        again = shown(house, seen)
+            session.url_state.redo()
+        again = shown(session, seen)
         assert {name: value for name, value in again.items() if name != "table"} == {
             name: value for name, value in steps[-1].items() if name != "table"}  # fmt: skip

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from house import by_hand, lab_of, ran, told
+from doubles import by_hand, lab_of, ran, told
 
 from app.model.explorer import Explorer
 from app.model.lab.examples import EXAMPLES

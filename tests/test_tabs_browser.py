@@ -10,8 +10,8 @@ pytestmark = pytest.mark.served
 # The view waits for a file, and the whole server with it; the first map never finishes.
 SLOW = """
 import os, sys, time
-import app.tabs.families.compare as compare, app.page.house as page
-real_view, real_map, maps = page.House.families, compare.share_map, []
+import app.tabs.families.compare as compare, app.page.session as page
+real_view, real_map, maps = page.Session.families, compare.share_map, []
 def late(*arguments):
     while not os.path.exists(GO):
         time.sleep(0.05)
@@ -31,7 +31,7 @@ def work(self, *arguments):
         return real_work(self, *arguments)
     finally:
         print("ENDED", flush=True)
-page.House.families, compare.share_map, compare.Compare._work = late, endless, work
+page.Session.families, compare.share_map, compare.Compare._work = late, endless, work
 """
 # The number of finished rows of the map.
 ROWS = """() => {

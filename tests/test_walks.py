@@ -1,6 +1,7 @@
-"""The way through the page as it is served: a hand asks, the Explorer solves, the Pacer shows, and nobody else follows.
+"""The way through the page as it is served: a hand asks, the Explorer solves, the RenderScheduler shows, and nobody
+else follows.
 
-docs/house.md says through which stations three gestures go, and they go through those, each once.
+docs/architecture.md says through which stations three gestures go, and they go through those, each once.
 """
 
 import importlib
@@ -12,7 +13,7 @@ from pathlib import Path
 import panel as pn
 import pytest
 from bokeh.document import Document
-from house import keeping
+from doubles import keeping
 from panel.io.state import set_curdoc
 
 import app.model.explorer
@@ -22,17 +23,17 @@ from app.model.build.builder import Builder
 from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
 from app.model.runs import Runs
-from app.page.house import House
 from app.page.page import page
+from app.page.session import Session
 from app.share.share import Share
 from app.tabs.lab.lab import LabTab
 from app.tabs.lab.rolling import Rolling
 from app.widgets.controls import Controls
 from app.widgets.guide import Guide
 from app.widgets.numbers import Numbers
-from app.widgets.pacing import Pacer
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plane_view import PlaneView
+from app.widgets.scheduling import RenderScheduler
 
 DOCS = Path(__file__).parent.parent / "docs"
 APP = DOCS.parent / "app"
@@ -42,8 +43,9 @@ SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room
 
 
 STATIONS = (
-    (Numbers, "_asked"), (Rolling, "_on_plane"), (Pacer, "ask"), (Explorer, "_solve"), (Pacer, "_on_scene"),
-    (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneView, "show_selected"), (PlaneView, "show_plane"),
+    (Numbers, "_asked"), (Rolling, "_on_plane"), (RenderScheduler, "ask"), (Explorer, "_solve"),
+    (RenderScheduler, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"),
+    (PlaneView, "show_selected"), (PlaneView, "show_plane"),
     (Controls, "show"), (Guide, "show"), (PlaneCard, "show_path"), (LabTab, "_heard"), (Lab, "ask"), (Lab, "_begin"),
     (Lab, "_done"), (LabTab, "_told"),
 )  # fmt: skip
@@ -53,7 +55,7 @@ FUNCTIONS = (
 
 
 def station(owner, name):
-    """The name in docs/house.md: file and function, where the function is defined."""
+    """The name in docs/architecture.md: file and function, where the function is defined."""
     function = getattr(owner, name)
     return f"{function.__module__.removeprefix('app.').replace('.', '/')}.py {function.__qualname__}"
 
@@ -74,18 +76,18 @@ def walk(monkeypatch):
 
     for owner, name in (*STATIONS, *FUNCTIONS):
         monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
-    for kind in (House, Rolling, Controls, LabTab, PlaneCard):
+    for kind in (Session, Rolling, Controls, LabTab, PlaneCard):
         monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
-    for module in ("pacing", "rest"):
+    for module in ("scheduling", "rest"):
         monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, then: timers.append(then))
-    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: results come at once
+    monkeypatch.setattr("app.page.session.Runs", lambda *session: Runs())  # no session: results come at once
     with set_curdoc(Document()):
 
         def rest():
-            pacer = made[House].pacer
-            pacer._rest._last -= 1  # as if long ago
+            scheduler = made[Session].scheduler
+            scheduler._rest._last -= 1  # as if long ago
             for _ in range(30):
-                pacer.painted.painted = pacer.painted.sent
+                scheduler.painted.painted = scheduler.painted.sent
                 if timers:
                     timers.pop(0)()
 
@@ -100,8 +102,8 @@ def walk(monkeypatch):
 
 
 def told(title):
-    """The stations in docs/house.md under a heading."""
-    text = (DOCS / "house.md").read_text(encoding="utf-8")
+    """The stations in docs/architecture.md under a heading."""
+    text = (DOCS / "architecture.md").read_text(encoding="utf-8")
     part = re.search(rf"## {title}\n(.*?)(?=\n## |\Z)", text, re.S)[1]
     return re.findall(r"^\d+\. `([^`]*)`", part, re.M)
 
@@ -117,16 +119,16 @@ def test_the_walk_of_a_slider(walk):
     assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
 
 
-def followers(pacer):
-    """The names of everything that a Pacer shows scenes to."""
-    for show in chain.from_iterable(pacer._shows.values()):
+def followers(scheduler):
+    """The names of everything that a RenderScheduler shows scenes to."""
+    for show in chain.from_iterable(scheduler._shows.values()):
         yield getattr(show, "func", show).__qualname__
 
 
 def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
     made, _, _ = walk(PAPERS)
     stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
-    assert {*followers(made[House].pacer)} - stations == {"Research._on_scene"}  # which has the panel draw it
+    assert {*followers(made[Session].scheduler)} - stations == {"Research._on_scene"}  # which has the panel draw it
 
 
 def test_the_walk_of_a_tieline_that_is_pulled(walk):
@@ -154,7 +156,7 @@ FOLLOW = {
     "measure": {"Measure.show"},
 }  # fmt: skip
 # And what else listens to an input of the Explorer: the panel that fits the table, and where it is.
-HEARS = {"lab": {("table", "House.lab"), ("table", "Research.__init__")}}
+HEARS = {"lab": {("table", "Session.lab"), ("table", "Research.__init__")}}
 
 
 def hearers(explorer):
@@ -168,8 +170,8 @@ def hearers(explorer):
 
 @pytest.fixture
 def roomy(monkeypatch, request):
-    """(a House with its page, a list of the views created from now on, with their names)."""
-    houses, given = [], []
+    """(a Session with its page, a list of the views created from now on, with their names)."""
+    sessions, given = [], []
 
     def noted(make, note):
         @wraps(make)
@@ -185,27 +187,27 @@ def roomy(monkeypatch, request):
             if isinstance(kind, type) and kind.__module__ == module.__name__ and "__init__" in vars(kind):
                 taken = noted(kind.__init__, lambda view, inputs: given.extend((type(view), each) for each in inputs))
                 monkeypatch.setattr(kind, "__init__", taken)
-    monkeypatch.setattr(House, "__init__", noted(House.__init__, lambda house, inputs: houses.append(house)))
+    monkeypatch.setattr(Session, "__init__", noted(Session.__init__, lambda session, inputs: sessions.append(session)))
     monkeypatch.setattr(Runs, "begin", lambda self, run, *name: run)  # nothing is computed
     with set_curdoc(Document()):
         first = "families" if "[learn]" in request.node.name else "learn"  # another room than that of the test
         pn.state.location.search = f"?v=4&tab={first}&level=research"
         page()
-        yield houses[0], given
+        yield sessions[0], given
 
 
 @pytest.mark.parametrize("name", FOLLOW)
 def test_a_room_is_told_of_scenes_by_the_pacer_alone(roomy, name):
-    """A view that is created with the Explorer or the House, or that watches the Explorer, is noticed."""
-    house, given = roomy
-    before, heard = {*followers(house.pacer)}, {*hearers(house.explorer)}
-    house.makers[name]()
-    assert {*followers(house.pacer)} - before == FOLLOW[name]
-    assert {*hearers(house.explorer)} - heard == HEARS.get(name, set())
-    assert {fn for parameter, fn in heard if parameter == "scene"} == {"Pacer._on_scene"}
-    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells"}  # the head shows the top
-    known = [(kind.__name__, type(each).__name__) for kind, each in given if isinstance(each, (Explorer, House))]
-    assert known == [("Pacer", "Explorer")]  # between requests and the Explorer
+    """A view that is created with the Explorer or the Session, or that watches the Explorer, is noticed."""
+    session, given = roomy
+    before, heard = {*followers(session.scheduler)}, {*hearers(session.explorer)}
+    session.makers[name]()
+    assert {*followers(session.scheduler)} - before == FOLLOW[name]
+    assert {*hearers(session.explorer)} - heard == HEARS.get(name, set())
+    assert {fn for parameter, fn in heard if parameter == "scene"} == {"RenderScheduler._on_scene"}
+    assert {fn for _, fn in heard} == {"RenderScheduler._on_scene", "tells"}  # the head shows the top
+    known = [(kind.__name__, type(each).__name__) for kind, each in given if isinstance(each, (Explorer, Session))]
+    assert known == [("RenderScheduler", "Explorer")]  # between requests and the Explorer
 
 
 # ---- the first tab ----
@@ -219,14 +221,14 @@ def test_the_page_needs_no_tab_but_the_first_to_be_made(query, first, monkeypatc
 
     def noted(make):
         @wraps(make)
-        def making(house):
+        def making(session):
             made.append(make.__name__)
-            return make(house)
+            return make(session)
 
         return making
 
     for name in ("lab", "build", "families", "learn", "measure"):
-        monkeypatch.setattr(House, name, noted(getattr(House, name)))
+        monkeypatch.setattr(Session, name, noted(getattr(Session, name)))
     with set_curdoc(Document()):
         pn.state.location.search = query
         page()

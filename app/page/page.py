@@ -8,12 +8,12 @@ from panel.theme.base import Design
 
 from app import text
 from app.page import first
-from app.page.house import TABS, House
+from app.page.session import TABS, Session
 from app.share.parts import Frame
 from app.share.share import Share
 from app.state import opened as room
-from app.state.keep import read
 from app.state.names import FRAME, LANGUAGE, LEVELS, VOTE
+from app.state.url_state import read
 from app.tabs.learn.student import student_page
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
@@ -47,31 +47,31 @@ def page():
     look = Look(width=0, height=0, margin=0)
     if VOTE in texts:  # the link of a student
         return whole(student_page(texts[VOTE]), look, failed)
-    house = House(texts, sentence, lambda **where: rooms.param.update(**where), room.level(texts))
-    pacer, keep = house.pacer, house.keep
+    session = Session(texts, sentence, lambda **where: rooms.param.update(**where), room.level(texts))
+    scheduler, url_state = session.scheduler, session.url_state
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
-    share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
-                  lambda: house.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
-                  worksheet, house.mail)  # fmt: skip
-    house.told, house.rests = share.refresh, lambda: keep.at_rest(share.address.gesture)
+    share = Share(url_state, session.playing, session.scene, session.runs, lambda: session.runs_shown(rooms.room),
+                  lambda: session.busy(rooms.room), session.explorer.settle, lambda: session.explorer.shape,
+                  worksheet, session.mail)  # fmt: skip
+    session.told, session.rests = share.refresh, lambda: url_state.commit(share.address.gesture)
     for owner in (look, tongue):
-        keep.add(owner)
+        url_state.add(owner)
     for show in (share.show, guide.show):
-        pacer.shows(show, "rest")
-    rooms = Rooms(house.makers, TABS, LEVELS, keep, pacer.now, room.AT_ONCE, room.opened(texts), room.FIRST,
-                  house.level)  # fmt: skip
-    rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
-    rooms.param.watch(lambda event: house.moved(event.new), "room")
-    house.moved(rooms.room)
-    head = HeadBar(rooms, keep, look, chosen(rooms, house, tongue, share), TOUR)
+        scheduler.shows(show, "rest")
+    rooms = Rooms(session.makers, TABS, LEVELS, url_state, scheduler.now, room.AT_ONCE, room.opened(texts), room.FIRST,
+                  session.level)  # fmt: skip
+    rooms.param.watch(lambda event: setattr(session, "level", event.new), "level")
+    rooms.param.watch(lambda event: session.moved(event.new), "room")
+    session.moved(rooms.room)
+    head = HeadBar(rooms, url_state, look, chosen(rooms, session, tongue, share), TOUR)
     share.param.watch(lambda event: head.opened(event.new), "is_open")
-    tells(head, rooms, house)
+    tells(head, rooms, session)
     toured = lambda *events: setattr(guide, "tour", (rooms.room, rooms.level) == TOUR)  # noqa: E731
     rooms.param.watch(toured, ["room", "level"])
     toured()
     unseen = {"width": 0, "height": 0, "margin": 0}
     lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
-    around = [look, guide, pacer.painted, lost, Symbols(**unseen), failed]
+    around = [look, guide, scheduler.painted, lost, Symbols(**unseen), failed]
     above = Frame(**unseen) if texts.get(FRAME) == "1" else head.view
     return whole(above, *share.main, *around, *rooms.columns)
 
@@ -80,25 +80,25 @@ def whole(*parts):
     return pn.Column(*parts, sizing_mode="stretch_width", margin=0)
 
 
-def chosen(rooms, house, tongue, share):
+def chosen(rooms, session, tongue, share):
     """The functions that the head calls for what is chosen in it."""
 
     def language(name):
         tongue.lang = name
         share.reload()
 
-    return choices.asks(toy=lambda name: house.take(name, rooms.room), language=language, share=share.toggle)
+    return choices.asks(toy=lambda name: session.take(name, rooms.room), language=language, share=share.toggle)
 
 
-def tells(head, rooms, house):
+def tells(head, rooms, session):
     """Keeps the head informed of the present top."""
 
     def tell(*events):
-        head.tops(*choices.tops(house.toy(rooms.room)))
+        head.tops(*choices.tops(session.toy(rooms.room)))
 
     rooms.param.watch(tell, "room")
-    house.explorer.param.watch(tell, ["shape", "a", "I1", "I3"])
-    house.builder.param.watch(tell, "draft")
+    session.explorer.param.watch(tell, ["shape", "a", "I1", "I3"])
+    session.builder.param.watch(tell, "draft")
     tell()
 
 

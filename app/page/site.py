@@ -28,7 +28,7 @@ from app.model.lesson.lesson import LESSON
 from app.model.runs import Runs
 from app.model.setup import TABLES, TOYS
 from app.page.first import CURVE, FRAME, POSE, written
-from app.state.keep import explorer_of, read
+from app.state.url_state import explorer_of, read
 from app.tabs.lab.lab import SLIDERS, LabTab
 from app.tabs.learn.lesson import LessonView, runs_of, said
 from app.tabs.learn.worksheet import worksheet

@@ -2,14 +2,14 @@
 
 from app import VERSION
 from app.server.answers import Handler
-from app.server.board import QUEUES, REFUSALS, STATES
+from app.server.worker_status import QUEUES, REFUSALS, STATES
 
 
 class Liveness(Handler):
     """Whether this worker answers, and its number of pages. If it does not answer for long, it may be restarted."""
 
     def get(self):
-        self.write({"live": True, "sessions": len(self.application.door.sessions), "version": VERSION})
+        self.write({"live": True, "sessions": len(self.application.admission.sessions), "version": VERSION})
 
 
 class Readiness(Handler):

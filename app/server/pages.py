@@ -49,21 +49,21 @@ class Page(Handler):
             return
         app, address = self.application, self.request.remote_ip
         if not app.tippe.lets(self.request.host):
-            app.door.refused["stranger"] += 1
+            app.admission.refused["stranger"] += 1
             refused(address, "stranger", "refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
             self.refused = True
             self.say(403, self.words("stranger"))
             return
-        hurried = app.door.pages.waiting(address) >= app.tippe.sessions_per_address
-        refusal = "hurried" if hurried else app.door.refusal(address)
+        hurried = app.admission.pages.waiting(address) >= app.tippe.sessions_per_address
+        refusal = "hurried" if hurried else app.admission.refusal(address)
         if refusal:
-            app.door.refused[refusal] += 1
+            app.admission.refused[refusal] += 1
             sentence = text.say(f"main.server.{refusal}", text.DEFAULT)
             refused(address, refusal, "refused %s a page: %s", address, sentence)
             self.refused = True
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return
-        turn = await app.door.pages.turn(address)
+        turn = await app.admission.pages.turn(address)
         start = time.monotonic()
         try:
             nonce = secrets.token_urlsafe(16)

@@ -46,16 +46,16 @@ def workers(count, board):
         raise
 
 
-def tidier(door, replace):
+def tidier(admission, replace):
     """A function that collects ended sessions, whose models refer to each other, and returns their memory to the
     system. Live objects are frozen: otherwise Python searches all of them now and then, which takes a second for 100
     sessions and finds nothing. replace: called if the process still exceeds its bound and there are no visitors."""
     known, gone = set(), 0
-    bound = door.settings.memory * MEGABYTE
+    bound = admission.settings.memory * MEGABYTE
 
     def tidy():
         nonlocal known, gone
-        now = {session.id for session in door.sessions}
+        now = {session.id for session in admission.sessions}
         made, gone = now - known, gone + len(known - now)
         known, ended = now, gone >= 20 or (gone and not now)
         if ended:
@@ -66,7 +66,7 @@ def tidier(door, replace):
                 LIBC.malloc_trim(0)
         if made or ended:
             gc.freeze()
-        if bound and door.served and door.idle and memory() > bound:
+        if bound and admission.served and admission.idle and memory() > bound:
             log.info(
                 "%d MB of memory, and nobody here: another worker takes the place of this one", memory() // MEGABYTE
             )

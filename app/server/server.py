@@ -1,7 +1,7 @@
 """The page for a class or for the open internet: `python -m app`, set by environment variables (Settings).
 
 `panel serve app` serves the same page to one person. Here, what one visitor can cost the others is bounded: sessions
-are counted and created one at a time, in turn among addresses (door); a message is checked before Bokeh uses it
+are counted and created one at a time, in turn among addresses (admission); a message is checked before Bokeh uses it
 (messages), and its size is limited (sockets); a visitor who sends more than a share of the processor can answer is read
 more slowly. docs/DEPLOY.md and SECURITY.md describe the consequences.
 """
@@ -33,15 +33,15 @@ from app import VERSION
 from app.borrowed import mend
 from app.kernels import compile_beside
 from app.server import health, logs
+from app.server.admission import Admission
 from app.server.answers import log_request, routes
-from app.server.board import Board, Watch
-from app.server.door import Door
-from app.server.ending import Ending
 from app.server.files import Bounded, most_files
 from app.server.loop import charging, in_one_thread
 from app.server.pages import Page, Sheet
 from app.server.processes import tidier, workers
+from app.server.shutdown import GracefulShutdown
 from app.server.sockets import LARGEST_FRAGMENT, Socket, note
+from app.server.worker_status import Board, Watch
 
 log = logging.getLogger("tippe")
 
@@ -72,14 +72,14 @@ def serve(settings, sockets, show, board, parent=None):
     loop.asyncio_loop.set_task_factory(charging)
     server = BaseServer(loop, tornado, http)
 
-    ending = Ending(settings, tornado.door, http, server)
+    shutdown = GracefulShutdown(settings, tornado.admission, http, server)
 
     for name in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(name, ending.begin)
+        signal.signal(name, shutdown.begin)
     if parent is not None:
-        loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), ending.begin(signal.SIGTERM)), IOLoop.READ)
-    PeriodicCallback(tidier(tornado.door, ending.replace), 1000 * TIDY).start()
-    tornado.watch = Watch(board, tornado.door)
+        loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), shutdown.begin(signal.SIGTERM)), IOLoop.READ)
+    PeriodicCallback(tidier(tornado.admission, shutdown.replace), 1000 * TIDY).start()
+    tornado.watch = Watch(board, tornado.admission)
     tornado.watch.start()
     pn.state.add_periodic_callback(lambda: None, 1, count=1)  # Panel's first timer keeps the session that it is made in
     server.start()
@@ -91,7 +91,7 @@ def serve(settings, sockets, show, board, parent=None):
         threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
     loop.start()
     board.leave()
-    return ending.code
+    return shutdown.code
 
 
 def prepared(settings, show):
@@ -121,7 +121,11 @@ def prepared(settings, show):
         log_function=log_request,
     )
     context = tornado.applications["/app"]
-    tornado.tippe, tornado.door, tornado.sheet = settings, Door(settings, context), Sheet(template, tornado.resources())
+    tornado.tippe, tornado.admission, tornado.sheet = (
+        settings,
+        Admission(settings, context),
+        Sheet(template, tornado.resources()),
+    )
     path = f"{settings.prefix}/app/ws"
     socket = (path, Socket, {"application_context": context, "bokeh_websocket_path": path})
     page = (f"{settings.prefix}/app/?", Page)

@@ -18,8 +18,8 @@ from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketHandler
 
 from app import text
+from app.server.admission import SLOW, Budget, budget
 from app.server.answers import Answer
-from app.server.door import SLOW, Budget, budget
 from app.server.logs import refused
 from app.server.loop import CHARGED
 from app.server.messages import Refused, look_at
@@ -88,7 +88,7 @@ class Socket(Answer, WSHandler):
         )
         if lets:
             return True
-        self.application.door.refused["stranger"] += 1
+        self.application.admission.refused["stranger"] += 1
         self.refused = True
         line = "refused a connection to %s by a page of %.100r: TIPPE_ORIGINS"
         refused(self.address, "stranger", line, self.request.host, origin)
@@ -112,24 +112,24 @@ class Socket(Answer, WSHandler):
         if not check_token_signature(self.token, signed=True, secret_key=app.secret_key):
             raise ProtocolError("That token is not of this server.")
         session_id, expiry = get_session_id(self.token), get_token_payload(self.token)["session_expiry"]
-        session = next((each for each in app.door.sessions if each.id == session_id), None)
-        if session is not None and not app.door.stopping:
+        session = next((each for each in app.admission.sessions if each.id == session_id), None)
+        if session is not None and not app.admission.stopping:
             refusal = "crowded" if session.connection_count >= SOCKETS else None
         else:
-            refusal = "ended" if time.time() > expiry else app.door.refusal(self.address)
+            refusal = "ended" if time.time() > expiry else app.admission.refusal(self.address)
         if refusal:
             self._refuse_for(refusal)
             return
         if self.ws_connection is None:  # gone again
             return
         self.set_nodelay(True)  # a message is three writes and more; the second would wait for the first one's receipt
-        app.door.sockets.add(self)
+        app.admission.sockets.add(self)
         if session is not None:
             CHARGED.set(budget(session))
             # Under the lock nothing that the session has to say comes before the greeting.
             await budget(session).steps(session.with_document_locked(self._greet, session))
             return
-        turn = await app.door.making.turn(self.address)
+        turn = await app.admission.making.turn(self.address)
         start = time.monotonic()
         try:
             if self.ws_connection is not None and not self.ws_connection.is_closing():
@@ -160,7 +160,7 @@ class Socket(Answer, WSHandler):
             await self.send_message(protocol.create("ACK"))
 
     def on_close(self):
-        self.application.door.sockets.discard(self)
+        self.application.admission.sockets.discard(self)
         if self.close_code is None and not self.refused:
             log.info(
                 "lost the connection of %s, or it sent a piece over %d KiB", self.address, LARGEST_FRAGMENT // 1024
@@ -175,7 +175,7 @@ class Socket(Answer, WSHandler):
 
     def _refuse(self, code, sentence, why="connection"):
         self.refused = True
-        self.application.door.refused[why] += 1
+        self.application.admission.refused[why] += 1
         refused(self.address, why, "refused %s: %.200s", self.address, sentence)
         self.close(code, sentence.encode()[:120].decode(errors="ignore"))
 
@@ -228,7 +228,7 @@ class Socket(Answer, WSHandler):
         self.fragments = 0
         start = time.monotonic()
         await self._answer(message)
-        self.application.door.moved(time.monotonic() - start)
+        self.application.admission.moved(time.monotonic() - start)
         return WHOLE_PAGE if message.msgtype == "PULL-DOC-REQ" else EACH_MESSAGE
 
     async def _answer(self, message):
@@ -238,9 +238,9 @@ class Socket(Answer, WSHandler):
             act = ServerSession.pull if message.msgtype == "PULL-DOC-REQ" else ServerSession.patch
             reply = await act(message, self.connection)
         except Exception as error:
-            self.application.door.bugs += ours(error)
+            self.application.admission.bugs += ours(error)
             sentence = note(error, self.address)
-            self.application.door.refused["message"] += 1
+            self.application.admission.refused["message"] += 1
             if self.connection is None:
                 return
             reply = self.connection.error(message, sentence)

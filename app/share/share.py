@@ -11,8 +11,8 @@ from app.borrowed import at_once
 from app.model.runs import Runs
 from app.share.panel import Files
 from app.share.parts import Address, Clock, ShareHead
-from app.state.keep import shared
 from app.state.names import is_local
+from app.state.url_state import shared
 from app.text import say
 from app.widgets.cards import words
 from app.widgets.rest import Rest
@@ -43,34 +43,34 @@ NOTICE = """
 class Share(param.Parameterized):
     """main: errors in the link, and the panel that is laid over the page.
 
-    keep: the page's Keep; playing: its Playing; scene: the first one; runs: the page's Runs; shown: returns the
-    saved_runs.Shown of the tables that are shown; busy: whether others are being computed; settle: solves the scene of
-    the present inputs, if that was postponed; body: returns the body of the page's top; sheet: returns the worksheet
+    url_state: the page's UrlState; playing: its Playing; scene: the first one; runs: the page's Runs; shown: returns
+    the saved_runs.Shown of the tables that are shown; busy: whether others are being computed; settle: solves the scene
+    of the present inputs, if that was postponed; body: returns the body of the page's top; sheet: returns the worksheet
     for a class, of a Scene; mail: returns the page to mail, of a Scene and its link. show() is for the scene of a hand
     at rest.
     """
 
     is_open = param.Boolean(default=False)
 
-    def __init__(self, keep, playing, scene, runs=None, shown=list, busy=bool, settle=bool, body=lambda: None,
+    def __init__(self, url_state, playing, scene, runs=None, shown=list, busy=bool, settle=bool, body=lambda: None,
                  sheet=lambda scene: "", mail=lambda scene, link: b""):  # fmt: skip
         super().__init__()
-        self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
+        self.url_state, self._playing, self._scene, self._runs = url_state, playing, scene, runs or Runs()
         self._shown, self._busy, self._settle, self._body, self._sheet = shown, busy, settle, body, sheet
         self._mail, self._files = mail, None
-        self.keep.add(Clock(playing))
-        self.keep.add(playing)
-        self.address = Address(search=self.keep.query, where=self.keep.where, width=0, height=0, margin=0)
+        self.url_state.add(Clock(playing))
+        self.url_state.add(playing)
+        self.address = Address(search=self.url_state.query, where=self.url_state.where, width=0, height=0, margin=0)
         at_once(self.address, "held", "gesture", "undone", "redone", "page", "visited")
         self._notice = pn.Column(sizing_mode="stretch_width", margin=0)
         self._rest = Rest(self._rests, lambda: self.address.held)
-        self.keep.param.watch(lambda event: self._rest.moved(), "changed")
-        self.keep.param.watch(self._say, "sentence")
+        self.url_state.param.watch(lambda event: self._rest.moved(), "changed")
+        self.url_state.param.watch(self._say, "sentence")
         self._say()
-        self.keep.param.watch(self._kept, ["query", "where"])
-        self.address.param.watch(lambda event: self.keep.undo(), "undone")
-        self.address.param.watch(lambda event: self.keep.redo(), "redone")
-        self.address.param.watch(lambda event: self.keep.visit(event.new[1]), "visited")
+        self.url_state.param.watch(self._kept, ["query", "where"])
+        self.address.param.watch(lambda event: self.url_state.undo(), "undone")
+        self.address.param.watch(lambda event: self.url_state.redo(), "redone")
+        self.address.param.watch(lambda event: self.url_state.visit(event.new[1]), "visited")
         self.panel = pn.Column(sizing_mode=None, margin=0, visible=False, stylesheets=[PLACE])
         self.main = [self._notice, self.address, self.panel]
         self._kept()
@@ -82,29 +82,29 @@ class Share(param.Parameterized):
     @property
     def link(self):
         """The present address of the page, without secrets."""
-        return self.address.page + shared(self.keep.query)
+        return self.address.page + shared(self.url_state.query)
 
     def reload(self):
         """Reloads the page with its state, or, if that is impossible, with the last valid one."""
         if self._scene.messages:
-            self.keep.undo()
-        self.keep.at_rest()
+            self.url_state.undo()
+        self.url_state.commit()
         self.address.reloads += 1
 
     def _say(self, *events):
-        text = self.keep.sentence
+        text = self.url_state.sentence
         self._notice.objects = [
             words(f'<div role="alert"><b>{html.escape(text)}</b></div>', NOTICE)
         ] if text else []  # fmt: skip
 
     def _rests(self):
         """Updates the address and makes a step of undo."""
-        self.keep.at_rest(self.address.gesture)
+        self.url_state.commit(self.address.gesture)
         self.refresh()
 
     def _kept(self, *events):
-        self.address.where = self.keep.where  # first: its entry of the history is new, and then gets the query
-        self.address.search = self.keep.query
+        self.address.where = self.url_state.where  # first: its entry of the history is new, and then gets the query
+        self.address.search = self.url_state.query
         self.refresh()
 
     # --- what is laid over the page, beside the stage ---

@@ -1,7 +1,7 @@
 """All names that an address can contain: what each refers to, how it is written, and whether a change of it can be
 undone.
 
-A view stores only what has a row here; a Keep finds the rows by the owner's class.
+A view stores only what has a row here; a UrlState finds the rows by the owner's class.
 """
 
 import ipaddress

@@ -2,7 +2,7 @@
 
 from app.model.lab.lab import scene_of
 from app.model.telling import told
-from app.state.keep import explorer_of, read
+from app.state.url_state import explorer_of, read
 from app.text import speaking
 
 

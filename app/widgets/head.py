@@ -19,17 +19,18 @@ class Head(Bundled):
 
 
 class HeadBar:
-    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look; toured: the room and level of the tour.
+    """view: the Head. rooms: the page's Rooms; url_state: its UrlState; look: its Look; toured: the room and level of
+    the tour.
 
     does: {name: function of a value} for all other requests: "toy", "share", "language".
     """
 
     SWITCHES = ("dark", "large")
 
-    def __init__(self, rooms, keep, look, does, toured=None):
-        self._rooms, self._keep, self._look, self._toured, self._answered = rooms, keep, look, toured, 0
+    def __init__(self, rooms, url_state, look, does, toured=None):
+        self._rooms, self._url_state, self._look, self._toured, self._answered = rooms, url_state, look, toured, 0
         self._toy, self._toys, self._shares = "", [], False
-        steps = {"undo": lambda value: keep.undo(), "redo": lambda value: keep.redo()}
+        steps = {"undo": lambda value: url_state.undo(), "redo": lambda value: url_state.redo()}
         switches = {name: lambda value, name=name: setattr(look, name, bool(value)) for name in self.SWITCHES}
         goes = {name: lambda value, name=name: self._go(name, value) for name in ("room", "level")}
         self._does = steps | switches | goes | does
@@ -37,7 +38,7 @@ class HeadBar:
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
         rooms.param.watch(self._say, ["room", "level"])
-        keep.param.watch(self._say, ["can_undo", "can_redo"])
+        url_state.param.watch(self._say, ["can_undo", "can_redo"])
         look.param.watch(self._say, list(self.SWITCHES))
         self._say()
 
@@ -68,7 +69,7 @@ class HeadBar:
         self._say()
 
     def _say(self, *events):
-        rooms, keep = self._rooms, self._keep
+        rooms, url_state = self._rooms, self._url_state
         names, here = listed("main.rooms"), rooms.tabs[rooms.tab]
         self.view.state = {
             "room": rooms.room, "level": rooms.level, "tab": rooms.tab,
@@ -78,7 +79,7 @@ class HeadBar:
             # in the row below: other rooms of the tab
             "rooms": [[room, names.get(room, ""), room] for room in here] if len(here) > 1 else [],
             "places": {room: rooms.place(room) for room in rooms.param.room.objects},
-            "toy": self._toy, "toys": self._toys, "undo": keep.can_undo, "redo": keep.can_redo,
+            "toy": self._toy, "toys": self._toys, "undo": url_state.can_undo, "redo": url_state.can_redo,
             "shares": self._shares,
             "language": spoken(), "languages": [list(each) for each in LANGUAGES.items()],
             **{name: getattr(self._look, name) for name in self.SWITCHES}, "answered": self._answered,

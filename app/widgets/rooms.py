@@ -39,7 +39,7 @@ def taken_apart(view, most=MOST):
 
 
 class Place:
-    """The place of a view. name: its name; make: a function that returns the view; add: Pacer.now.
+    """The place of a view. name: its name; make: a function that returns the view; add: RenderScheduler.now.
 
     Views are created in turn among all pages of the server, in steps: the view, and then what the browser gets of it,
     part by part. Between the steps, and after them, others are served."""
@@ -153,13 +153,13 @@ class Rooms(param.Parameterized):
 
     makers: {name in the address: function that creates the view}; tabs: {name: names of its rooms}; levels: the names
     of levels; opened, level: what is shown first; usual: the room if there is no such one; at_once: rooms whose view is
-    then created with the page. add: Pacer.now.
+    then created with the page. add: RenderScheduler.now.
     """
 
     room = param.Selector(doc="a key of makers")
     level = param.Selector(doc="one of the levels")
 
-    def __init__(self, makers, tabs, levels, keep, add, at_once, opened, usual, level):
+    def __init__(self, makers, tabs, levels, url_state, add, at_once, opened, usual, level):
         super().__init__()
         self.tabs = tabs
         self.param.room.objects, self.param.level.objects = list(makers), list(levels)
@@ -175,8 +175,8 @@ class Rooms(param.Parameterized):
         else:
             self._look()
         self.param.watch(self._moved, "room")
-        # both are always given to the Keep, which leaves them out of a link if they are the default
-        keep.add(self, lambda rooms: {"room": None, "level": None})
+        # both are always given to the UrlState, which leaves them out of a link if they are the default
+        url_state.add(self, lambda rooms: {"room": None, "level": None})
 
     @property
     def tab(self):

@@ -40,22 +40,23 @@ class Research(param.Parameterized):
     """view: the panels, one of which is shown, and the inputs. Each is created when it is first shown, and draws only
     while it is.
 
-    pacer: the page's Pacer; lab: its Lab; runs: its Runs; controls: the view of the inputs of a rolling motion; choose:
-    called with the name of a body; follow: with each rolling Scene, at once. open: whether the page shows it.
+    scheduler: the page's RenderScheduler; lab: its Lab; runs: its Runs; controls: the view of the inputs of a rolling
+    motion; choose: called with the name of a body; follow: with each rolling Scene, at once. open: whether the page
+    shows it.
     """
 
     panel = param.Selector(default=AUTO, objects=[AUTO, *PANELS], doc='the panel; "auto": as fits the table')
 
-    def __init__(self, pacer, lab, runs, controls, choose, follow):
+    def __init__(self, scheduler, lab, runs, controls, choose, follow):
         super().__init__()
-        self._pacer, self._lab, self._runs, self._choose, self._follow = pacer, lab, runs, choose, follow
+        self._pacer, self._lab, self._runs, self._choose, self._follow = scheduler, lab, runs, choose, follow
         self._made, self._drawn, self._open = {}, {}, False
         self._switch = Choice({say(f"research.panels.{name}"): name for name in PANELS}, PANELS[0], margin=(0, 0, 4, 0))
         self._switch.param.watch(self._chosen, "value")
         self._places = {
             name: pn.Column(sizing_mode="stretch_width", margin=0, visible=False, styles=WHOLE) for name in PANELS
         }
-        self.rolling = Rolling(pacer, runs, lambda: lab.ask(table="ordinary"))
+        self.rolling = Rolling(scheduler, runs, lambda: lab.ask(table="ordinary"))
         self._note = words(note(say("research.rolling")), visible=False, margin=(4, 0))
         parts = self._switch, self._note, *self._places.values(), controls
         self.view = pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[AROUND])
@@ -64,7 +65,7 @@ class Research(param.Parameterized):
             "time": self._make_times, "values": self._make_values, "ends": self._make_ends,
         }  # fmt: skip
         for when in ("hand", "pictures", "rest", "still"):
-            pacer.shows(partial(self._on_scene, when), when)
+            scheduler.shows(partial(self._on_scene, when), when)
         lab.param.watch(lambda event: self._on_run(), "scene")
         self.param.watch(lambda event: self._look(), "panel")
         lab.start.param.watch(lambda event: self._look(), "table")

@@ -32,7 +32,8 @@ def kept_words(scene):
 
 
 class Switch:
-    """A choice of several portraits, one at a time; each is created when it is first shown. soon: that of a Pacer."""
+    """A choice of several portraits, one at a time; each is created when it is first shown. soon: that of a
+    RenderScheduler."""
 
     def __init__(self, title, *kinds, soon):
         self._kinds, self._made, self._scene = kinds, {}, None
@@ -69,10 +70,11 @@ class Switch:
 
 class Rolling:
     """plane(), surface() and portraits() return the content of a panel, and {when: what draws a scene in it}, as of a
-    Pacer. pacer: takes requests; runs: the page's Runs; slip: shows this motion on a table on which it slips."""
+    RenderScheduler. scheduler: takes requests; runs: the page's Runs; slip: shows this motion on a table on which it
+    slips."""
 
-    def __init__(self, pacer, runs, slip):
-        self._pacer, self._runs, self._slip, self._scene = pacer, runs, slip, None
+    def __init__(self, scheduler, runs, slip):
+        self._pacer, self._runs, self._slip, self._scene = scheduler, runs, slip, None
         self.kept = said()
 
     def plane(self):

@@ -10,7 +10,7 @@ from app.model.runs import to_session
 from app.model.votes.ballots import Away
 from app.model.votes.classroom import Refused
 from app.model.votes.desk import DESK
-from app.state.keep import EXPLORER, inputs_of
+from app.state.url_state import EXPLORER, inputs_of
 from app.text import say
 
 MOST_ASKED = 4

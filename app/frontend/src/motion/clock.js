@@ -1,5 +1,5 @@
 // Connects a top to its clock. Tops of the same clock play together; a top without a clock name has one to itself, or
-// is the last on the nameless clock. Other parts of the page use events; docs/house.md lists them.
+// is the last on the nameless clock. Other parts of the page use events; docs/architecture.md lists them.
 import { Player } from "./player.js";
 
 const TELL_MS = 80; // ms between two times that are sent to Python while scrubbing

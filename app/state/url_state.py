@@ -96,11 +96,13 @@ def explorer_of(texts):
 
 
 def kept(explorer, texts=None, sentence="", **more):
-    """The Keep of a page with this Explorer, which the link has already set. A start by hand is stored even if its
+    """The UrlState of a page with this Explorer, which the link has already set. A start by hand is stored even if its
     rolling motion cannot be computed."""
-    keep = Keep(texts, sentence, allowed=lambda: explorer.given == "hand" or not explorer.scene.messages, **more)
-    keep.add(explorer, usual, opened=True)
-    return keep
+    url_state = UrlState(
+        texts, sentence, allowed=lambda: explorer.given == "hand" or not explorer.scene.messages, **more
+    )
+    url_state.add(explorer, usual, opened=True)
+    return url_state
 
 
 def usual(explorer):
@@ -130,10 +132,10 @@ class Part:
         return {name: getattr(self.owner, name) for name in names}
 
 
-class Keep(param.Parameterized):
+class UrlState(param.Parameterized):
     """The state of a page: its query, and undo and redo.
 
-    at_rest() is to be called when a gesture ends; it updates the query and, if something undoable has changed, adds a
+    commit() is to be called when a gesture ends; it updates the query and, if something undoable has changed, adds a
     step. allowed: whether the present inputs can be shown; if not, they are not stored. shortest: reduces the texts of
     a query to those that are needed.
     """
@@ -195,7 +197,7 @@ class Keep(param.Parameterized):
                 event.obj.param.update(**{event.name: event.old})
         self.param.trigger("changed")
 
-    def at_rest(self, gesture=None):
+    def commit(self, gesture=None):
         """Ends a gesture. A late change by the same gesture (if it is not None) does not make another step."""
         if not self._allowed():
             return

@@ -17,20 +17,20 @@ APART = 1.0  # s between two pages at most: another server makes one in less
 LAST = 0.2  # s for the last messages to go out
 
 
-class Ending:
+class GracefulShutdown:
     """The end of one process. Meanwhile no page is let in: /readyz and the page refuse."""
 
-    def __init__(self, settings, door, http, server):
+    def __init__(self, settings, admission, http, server):
         self.code = 0
-        self._settings, self._door, self._http, self._server = settings, door, http, server
+        self._settings, self._admission, self._http, self._server = settings, admission, http, server
         self._at_once = False
 
     def begin(self, number, _frame=None):
         """Handler of a signal. SIGINT, or a second signal, ends without waiting."""
-        self._at_once = self._at_once or self._door.stopping or number == signal.SIGINT
-        if self._door.stopping:
+        self._at_once = self._at_once or self._admission.stopping or number == signal.SIGINT
+        if self._admission.stopping:
             return
-        self._door.stopping = True
+        self._admission.stopping = True
         if hasattr(signal, "alarm"):
             signal.alarm(GRACE + self._settings.drain)  # kills a process that does not end by itself
         IOLoop.current().add_callback_from_signal(self._end)
@@ -41,7 +41,7 @@ class Ending:
         self.begin(signal.SIGINT)
 
     async def _end(self):
-        told = list(self._door.sockets)
+        told = list(self._admission.sockets)
         log.info("stopping: %d open pages are sent elsewhere", len(told))
         random.shuffle(told)
         apart = min(APART, self._settings.drain / max(len(told), 1))

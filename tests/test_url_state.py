@@ -17,7 +17,7 @@ from app.model.playing import Playing
 from app.model.start import arrives, of_toy
 from app.share.parts import Clock
 from app.state.codecs import Body, Number
-from app.state.keep import EXPLORER, LONGEST_QUERY, Keep, explorer_of, read, usual
+from app.state.url_state import EXPLORER, LONGEST_QUERY, UrlState, explorer_of, read, usual
 from app.text import say, speaking
 from app.widgets.controls import Controls
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
@@ -44,9 +44,9 @@ def first(**changes):
 
 
 def kept(explorer, texts=None):
-    keep = Keep(texts, allowed=lambda: not explorer.scene.messages)
-    keep.add(explorer, usual, opened=True)
-    return keep
+    url_state = UrlState(texts, allowed=lambda: not explorer.scene.messages)
+    url_state.add(explorer, usual, opened=True)
+    return url_state
 
 
 def opened(query):
@@ -200,83 +200,83 @@ def test_no_link_raises(pairs, quoted):
 
 def test_back_and_forth():
     explorer = Explorer()
-    keep, before = kept(explorer), explorer.scene
-    opens = keep.query
-    assert not keep.can_undo and not keep.can_redo
+    url_state, before = kept(explorer), explorer.scene
+    opens = url_state.query
+    assert not url_state.can_undo and not url_state.can_redo
     for K_J in (6.9, 6.8, 6.7):  # values during a drag are not steps
         explorer.K_J = K_J
-    keep.at_rest()
+    url_state.commit()
     explorer.param.update(theta=0.5, theta_dot=0.0, omega2=-1.0, omega3=8.0, given="state")
-    keep.at_rest()
+    url_state.commit()
     second = explorer.scene
-    keep.undo()
-    assert (explorer.given, explorer.K_J) == ("share", 6.7) and keep.can_undo and keep.can_redo
-    keep.undo()
+    url_state.undo()
+    assert (explorer.given, explorer.K_J) == ("share", 6.7) and url_state.can_undo and url_state.can_redo
+    url_state.undo()
     assert np.array_equal(explorer.scene.trajectory.theta, before.trajectory.theta)
-    assert keep.query == opens and not keep.can_undo
-    keep.undo()
-    keep.redo()
-    keep.redo()
+    assert url_state.query == opens and not url_state.can_undo
+    url_state.undo()
+    url_state.redo()
+    url_state.redo()
     assert np.array_equal(explorer.scene.trajectory.quaternion, second.trajectory.quaternion)
-    assert not keep.can_redo
-    keep.undo()
+    assert not url_state.can_redo
+    url_state.undo()
     explorer.mu_s = 0.2
-    keep.at_rest()  # a new branch of the history
-    assert not keep.can_redo
-    keep.at_rest()
-    keep.undo()
+    url_state.commit()  # a new branch of the history
+    assert not url_state.can_redo
+    url_state.commit()
+    url_state.undo()
     assert (explorer.mu_s, explorer.K_J) == (0.5, 6.7)
 
 
 def test_the_steps_are_bounded(monkeypatch):
-    monkeypatch.setattr("app.state.keep.STEPS", 10)
+    monkeypatch.setattr("app.state.url_state.STEPS", 10)
     explorer = Explorer()
-    keep = kept(explorer)
+    url_state = kept(explorer)
     for i in range(15):
         explorer.param.update(upper=bool(i % 2), mu_s=0.1 + i / 1000)
-        keep.at_rest()
+        url_state.commit()
     steps = 0
-    while keep.can_undo:
-        keep.undo()
+    while url_state.can_undo:
+        url_state.undo()
         steps += 1
     assert steps == 10
 
 
 def test_what_cannot_be_is_neither_kept_nor_a_step():
     explorer = Explorer()
-    keep = kept(explorer)
+    url_state = kept(explorer)
     explorer.K_J = 6.0
-    keep.at_rest()
-    query = keep.query
+    url_state.commit()
+    query = url_state.query
     explorer.I3 = 0.9
-    keep.at_rest()
-    assert explorer.scene.messages and keep.query == query
-    keep.undo()  # back from an impossible input
-    assert not explorer.scene.messages and (explorer.I3, explorer.K_J) == (0.408, 6.0) and keep.query == query
+    url_state.commit()
+    assert explorer.scene.messages and url_state.query == query
+    url_state.undo()  # back from an impossible input
+    assert not explorer.scene.messages and (explorer.I3, explorer.K_J) == (0.408, 6.0) and url_state.query == query
 
 
 def test_a_view_made_later_gets_its_part_of_the_link():
     texts, _ = read("?v=4&mapby=heat&mapat=3_4&by=share&KJ=6&x=%26a%3Db")
     explorer, _ = explorer_of(texts)
-    keep, other = kept(explorer, texts), MapChoice()
-    assert opened(keep.query)[0].K_J == 6
-    assert read(keep.query)[0] == texts  # the state of views that do not exist yet stays in the link
-    keep.add(other)
-    assert keep.sentence == "" and (other.colour, other.place) == ("heat", [3.0, 4.0])
-    assert not keep.can_undo
+    url_state, other = kept(explorer, texts), MapChoice()
+    assert opened(url_state.query)[0].K_J == 6
+    assert read(url_state.query)[0] == texts  # the state of views that do not exist yet stays in the link
+    url_state.add(other)
+    assert url_state.sentence == "" and (other.colour, other.place) == ("heat", [3.0, 4.0])
+    assert not url_state.can_undo
     other.place = [5.0, 4.0]
-    keep.at_rest()
-    assert read(keep.query)[0]["mapat"] == "5_4"
-    keep.undo()
+    url_state.commit()
+    assert read(url_state.query)[0]["mapat"] == "5_4"
+    url_state.undo()
     assert other.place == [3.0, 4.0]
     explorer = Explorer()
-    keep, other = kept(explorer, {"mapby": "much"}), MapChoice()
-    keep.add(other)
-    keep.at_rest()
-    assert "mapby" in keep.sentence
+    url_state, other = kept(explorer, {"mapby": "much"}), MapChoice()
+    url_state.add(other)
+    url_state.commit()
+    assert "mapby" in url_state.sentence
     other.place = [2.0, 2.0]
-    keep.at_rest()
-    assert keep.sentence == ""
+    url_state.commit()
+    assert url_state.sentence == ""
 
 
 def test_what_was_open_is_opened_again_and_nothing_else_changes():
@@ -287,24 +287,24 @@ def test_what_was_open_is_opened_again_and_nothing_else_changes():
         step, section, room = param.String("flips"), param.String("lesson"), param.String("")
 
     rooms, learn, (explorer, _) = Rooms(), Learn(), explorer_of({"by": "share"})
-    keep = kept(explorer)
-    keep.add(rooms, lambda rooms: {"room": None, "level": None})
-    lab = keep.where
+    url_state = kept(explorer)
+    url_state.add(rooms, lambda rooms: {"room": None, "level": None})
+    lab = url_state.where
     explorer.K_J = 6.0
-    keep.at_rest()
-    assert keep.where == lab
+    url_state.commit()
+    assert url_state.where == lab
     rooms.room = "learn"
-    keep.at_rest()
-    before, learn.step = keep.where, "way"
-    keep.add(learn)
-    keep.at_rest()
-    assert len({lab, before, keep.where}) == 3
-    keep.visit(before)
-    assert (rooms.room, learn.step, keep.where) == ("learn", "flips", before)
+    url_state.commit()
+    before, learn.step = url_state.where, "way"
+    url_state.add(learn)
+    url_state.commit()
+    assert len({lab, before, url_state.where}) == 3
+    url_state.visit(before)
+    assert (rooms.room, learn.step, url_state.where) == ("learn", "flips", before)
     rooms.level = "research"
-    keep.visit(before)
+    url_state.visit(before)
     assert rooms.level == "explore"
-    keep.visit("?v=4&tab=nowhere&level=explore&step=way&KJ=3")
+    url_state.visit("?v=4&tab=nowhere&level=explore&step=way&KJ=3")
     assert (rooms.room, rooms.level, learn.step, explorer.K_J) == ("learn", "explore", "way", 6.0)
 
 
@@ -318,12 +318,12 @@ def test_every_input_of_the_explorer_is_kept():
 
 def test_what_was_paused_plays_on_when_it_is_played():
     top = Playing()
-    keep, clock = Keep(), Clock(top)
-    keep.add(clock)
+    url_state, clock = UrlState(), Clock(top)
+    url_state.add(clock)
     for playing in (False, True, False, True):
         top.playing = playing
-        keep.at_rest()
-        assert top.playing is playing and ("t=" in keep.query) is not playing
+        url_state.commit()
+        assert top.playing is playing and ("t=" in url_state.query) is not playing
 
 
 def test_the_words_that_a_link_may_have_are_written_as_in_the_link():

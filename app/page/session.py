@@ -14,8 +14,8 @@ from app.page.site import mailed
 from app.share.letter import figures
 from app.share.saved_runs import Shown
 from app.state import opened as room
-from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
+from app.state.url_state import explorer_of, kept
 from app.tabs.build.build import Build
 from app.tabs.build.built import Built
 from app.tabs.build.rocking import RockingFields
@@ -30,7 +30,7 @@ from app.text import say
 from app.widgets.cards import card, flexible, later, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt, full, waits
-from app.widgets.pacing import Pacer
+from app.widgets.scheduling import RenderScheduler
 
 TABS = {"learn": ("learn",), "lab": (room.FIRST,), "build": ("build-a-top",), "maps": ("families", "maps"),
         "measure": ("measure",)}  # fmt: skip
@@ -50,9 +50,9 @@ WHY = {"section": "lesson", "step": "arms"}  # why rubbing lifts a top
 WHY_NOT = {"section": "published"}  # why Coulomb's law alone does not
 
 
-class House:
-    """Everything that the views share: the Explorer, which solves; the Pacer, which takes requests and shows scenes;
-    the Builder of bodies; the Lab; the playback; the Keep; and the Runs.
+class Session:
+    """What the page of one visitor has, and its views share: the Explorer, which solves; the RenderScheduler, which
+    takes requests and shows scenes; the Builder of bodies; the Lab; the playback; the UrlState; and the Runs.
 
     look_at(room=name, level=name) shows a room at a level; level is the present one. The page sets both, and
     `told`, which is called when runs_shown() may have changed, and `rests`, when a hand does, which may still be down.
@@ -61,19 +61,19 @@ class House:
     def __init__(self, texts, sentence, look_at, level):
         self._level, self._shows_level = level, []
         self.explorer, wrong = explorer_of(texts)
-        self.pacer = Pacer(self.explorer)
-        self.builder = Builder(self.explorer.scene, self.pacer.ask)
-        self.pacer.shows(self.builder.follow, "hand")
+        self.scheduler = RenderScheduler(self.explorer)
+        self.builder = Builder(self.explorer.scene, self.scheduler.ask)
+        self.scheduler.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
         self._learn, self._place = None, {}
-        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=room.shortest)
+        self.url_state = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=room.shortest)
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
-        self.told, self.rests = lambda: None, self.keep.at_rest
+        self.told, self.rests = lambda: None, self.url_state.commit
         self.lab_of = Lab(self.runs, self.explorer)
         self.lab_of.param.watch(lambda *events: self.told(), ["scene", "busy"])
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
-        pn.state.onload(self.pacer.begin)
+        pn.state.onload(self.scheduler.begin)
 
     @property
     def level(self):
@@ -139,13 +139,13 @@ class House:
         return view
 
     def _research(self, follow):
-        controls = Controls(self.scene, self.pacer.ask)
-        self.keep.add(controls)
+        controls = Controls(self.scene, self.scheduler.ask)
+        self.url_state.add(controls)
         for show_scene, when in ((controls.follow, "hand"), (controls.show, "rest")):
-            self.pacer.shows(show_scene, when)
-        found = Research(self.pacer, self.lab_of, self.runs, controls.card(), self.builder.choose, follow)
-        self.keep.add(found)
-        found.param.watch(lambda event: self.keep.at_rest(), "panel")
+            self.scheduler.shows(show_scene, when)
+        found = Research(self.scheduler, self.lab_of, self.runs, controls.card(), self.builder.choose, follow)
+        self.url_state.add(found)
+        found.param.watch(lambda event: self.url_state.commit(), "panel")
         return found
 
     def _explain(self, **place):
@@ -170,7 +170,7 @@ class House:
             RockingFields(self.builder),
         )
         for show in (bench.show, built.show):
-            self.pacer.shows(show, "rest")
+            self.scheduler.shows(show, "rest")
         self._at_levels(lambda explores: bench.numbers.param.update(visible=not explores))
         self._at_levels(lambda explores: own.formula.param.update(visible=not explores))
         parts = {"section": bench.section_view, "bench": bench.bench_view, "measure": own.view}
@@ -185,11 +185,11 @@ class House:
 
     def families(self):
         tops, compare = (
-            Tops(self.scene, self.pacer.ask, self._use, self._change, self.runs),
+            Tops(self.scene, self.scheduler.ask, self._use, self._change, self.runs),
             Compare(self.scene, self.runs),
         )
-        self.pacer.shows(tops.show, "rest")
-        self.pacer.shows(compare.show, "hand")
+        self.scheduler.shows(tops.show, "rest")
+        self.scheduler.shows(compare.show, "hand")
         compare.compute()
         cards = (
             (card(say("family.tops.title"), *tops.map_view), "3 1 560px"),
@@ -209,17 +209,17 @@ class House:
 
     def learn(self):
         self._learn = learn = Learn(self.scene, self.runs, lambda: self._look_at(room=room.FIRST))
-        self.pacer.shows(learn.show, "rest")
-        self.keep.add(learn)
+        self.scheduler.shows(learn.show, "rest")
+        self.url_state.add(learn)
         learn.param.update(**self._place)
-        learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
+        learn.param.watch(lambda event: self.url_state.commit(), "room")  # at once: a reload would lose it
         return learn.view
 
     def maps(self):
         maps = Maps(self.runs, self.scene, self._throw)
-        self.keep.add(maps.choice, usual=lambda choice: maps.usual)
-        maps.choice.param.watch(lambda *events: self.keep.at_rest(), [*maps.choice.INPUTS])
-        self.pacer.shows(maps.show, "rest")
+        self.url_state.add(maps.choice, usual=lambda choice: maps.usual)
+        maps.choice.param.watch(lambda *events: self.url_state.commit(), [*maps.choice.INPUTS])
+        self.scheduler.shows(maps.show, "rest")
         self._at_levels(lambda explores: maps.open(not explores))
         return maps.view
 
@@ -231,9 +231,9 @@ class House:
 
     def measure(self):
         measure = Measure(self.scene, self.runs)
-        self.keep.add(measure.filmed)
+        self.url_state.add(measure.filmed)
         self._at_levels(lambda explores: measure.found.param.update(css_classes=["brief"] if explores else []))
-        self.pacer.shows(measure.show, "hand")
+        self.scheduler.shows(measure.show, "hand")
         return measure.view
 
     def moved(self, looked_at):

@@ -28,7 +28,7 @@ class Painted(Bundled):
     painted = param.Integer(default=0)
 
 
-class Pacer:
+class RenderScheduler:
     """Stands between the hands and an Explorer, and between its scenes and the views. In one direction: a hand asks,
     the Explorer solves, and the one scene comes here, to be shown.
 

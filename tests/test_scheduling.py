@@ -12,7 +12,7 @@ import app.model.region
 import app.model.scene
 from app.model.explorer import Explorer
 from app.widgets.controls import Controls
-from app.widgets.pacing import Pacer
+from app.widgets.scheduling import RenderScheduler
 from tippe_core import (
     Lathe,
     Top,
@@ -25,51 +25,51 @@ def explorer():
 
 
 @pytest.fixture
-def pacer(explorer, monkeypatch):
+def scheduler(explorer, monkeypatch):
     """With three pictures, of which the second fails; drawn lists what was drawn."""
     drawn, timers, failing = [], [], []
-    for module in ("pacing", "rest"):
+    for module in ("scheduling", "rest"):
         monkeypatch.setattr(f"app.widgets.{module}.after", lambda seconds, then: timers.append(then))
 
     def fails(scene):
         raise ZeroDivisionError
 
-    pacer = Pacer(explorer)
-    pacer.shows(lambda scene: drawn.append("hand"), "hand")
+    scheduler = RenderScheduler(explorer)
+    scheduler.shows(lambda scene: drawn.append("hand"), "hand")
     for picture in (lambda scene: drawn.append("first"), lambda scene: failing and fails(scene),
                     lambda scene: drawn.append("last")):  # fmt: skip
-        pacer.shows(picture, "pictures")
-    pacer.shows(lambda scene: drawn.append("words"), "rest")
+        scheduler.shows(picture, "pictures")
+    scheduler.shows(lambda scene: drawn.append("words"), "rest")
     drawn.clear()
     failing.append(True)
-    pacer.timers, pacer.drawn = timers, drawn
-    return pacer
+    scheduler.timers, scheduler.drawn = timers, drawn
+    return scheduler
 
 
-def test_a_picture_that_fails_keeps_no_other_back(pacer):
-    pacer.ask(K_J=6.5)
+def test_a_picture_that_fails_keeps_no_other_back(scheduler):
+    scheduler.ask(K_J=6.5)
     with pytest.raises(ZeroDivisionError):
-        pacer.painted.painted = pacer.painted.sent
-    assert pacer.drawn == ["hand", "first", "last", "words"]
+        scheduler.painted.painted = scheduler.painted.sent
+    assert scheduler.drawn == ["hand", "first", "last", "words"]
 
 
-def test_a_hand_comes_to_rest_also_where_a_picture_fails(pacer):
+def test_a_hand_comes_to_rest_also_where_a_picture_fails(scheduler):
     for K_J in (6.5, 6.6, 6.7):
-        pacer.ask(K_J=K_J)
-    pacer._rest._last -= 1  # as if long ago
-    pacer._hands.clear()
+        scheduler.ask(K_J=K_J)
+    scheduler._rest._last -= 1  # as if long ago
+    scheduler._hands.clear()
     with pytest.raises(ZeroDivisionError):
-        while pacer.timers:
-            pacer.timers.pop()()
-            pacer._drawing.clear()
-    pacer.drawn.clear()
-    pacer._drawing.clear()
-    pacer.ask(K_J=6.8)
-    assert pacer._single and pacer.drawn[0] == "hand"
+        while scheduler.timers:
+            scheduler.timers.pop()()
+            scheduler._drawing.clear()
+    scheduler.drawn.clear()
+    scheduler._drawing.clear()
+    scheduler.ask(K_J=6.8)
+    assert scheduler._single and scheduler.drawn[0] == "hand"
 
 
-def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
-    controls = Controls(explorer.scene, pacer.ask)
+def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, scheduler):
+    controls = Controls(explorer.scene, scheduler.ask)
     controls.face = "state"
     for name in ("omega3", "theta_dot"):
         before = explorer.scene
@@ -78,7 +78,7 @@ def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
         assert explorer.scene.messages and explorer.scene.rolling is before.rolling
         assert [*json.loads(controls.numbers.view.state)["messages"]] == [name]
         controls._request(name, 0.5, typed=True)
-        pacer._hands.clear()
+        scheduler._hands.clear()
         controls.show(explorer.scene)
 
 

@@ -14,7 +14,7 @@ LIGHT, SAVED, OWED = 0.02, 5.0, 1.0  # of it, of one session; s of it that one c
 SLOW = 0.25  # s of waiting that the log tells
 
 
-class Door:
+class Admission:
     """Counts sessions and pages, and lets them be made in turn. context: Bokeh's application context of the page."""
 
     def __init__(self, settings, context):

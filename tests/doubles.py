@@ -55,7 +55,8 @@ def keeping(made, make):
 
 
 class Shown:
-    """Stands in for a Pacer, with a stored scene. asked: the requests; shown: functions that show scenes, and when."""
+    """Stands in for a RenderScheduler, with a stored scene. asked: the requests; shown: functions that show scenes,
+    and when."""
 
     def __init__(self, scene):
         self.scene, self.asked, self.shown, self.waits = scene, [], [], []

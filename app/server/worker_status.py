@@ -58,10 +58,10 @@ class Board:
 
 
 class Watch:
-    """Reports the state of this worker's door on the board."""
+    """Reports the state of this worker's admission on the board."""
 
-    def __init__(self, board, door):
-        self.board, self._door = board, door
+    def __init__(self, board, admission):
+        self.board, self._admission = board, admission
         self._delays, self._started = deque([0.0], REMEMBERED), time.time()
 
     def start(self):
@@ -77,14 +77,15 @@ class Watch:
 
     def look(self):
         """Writes the present state."""
-        door = self._door
-        queues = {"page": door.pages, "session": door.making, "room": rooms()} | POOLS
+        admission = self._admission
+        queues = {"page": admission.pages, "session": admission.making, "room": rooms()} | POOLS
         self.board.write(
-            full=door.full, stopping=door.stopping, compiling=compiling(), sessions=len(door.sessions),
-            connections=len(door.sockets), delay=max(self._delays), memory=memory(),
-            files=files() if door.settings.metrics else np.nan, moves=door.moves, moving=door.moving, bugs=door.bugs,
+            full=admission.full, stopping=admission.stopping, compiling=compiling(), sessions=len(admission.sessions),
+            connections=len(admission.sockets), delay=max(self._delays), memory=memory(),
+            files=files() if admission.settings.metrics else np.nan, moves=admission.moves, moving=admission.moving,
+            bugs=admission.bugs,
             processor=time.process_time(), started=self._started, away=DESK.away,
-            **{f"refused {why}": door.refused[why] for why in REFUSALS},
+            **{f"refused {why}": admission.refused[why] for why in REFUSALS},
             **{f"{name} waiting": queue.waiting() for name, queue in queues.items()},
             **{f"{name} turns": queue.turns for name, queue in queues.items()},
             **{f"{name} waited": queue.waited for name, queue in queues.items()},
