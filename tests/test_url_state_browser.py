@@ -191,7 +191,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     assert len(still.convert("RGB").resize((240, 160)).getcolors(100_000)) > 500  # not blank
 
     page = save("One page to mail", "HTML")
-    assert page.stat().st_size < 3_000_000
+    assert page.stat().st_size < 3_200_000  # with the runs on three tables, and Bokeh
     visit.page.close()  # otherwise both are drawn all the time
     context = chromium.new_context(offline=True)
     mailed, asked = context.new_page(), []
