@@ -17,7 +17,7 @@ from app.model.motion import THROWN, for_reader, motion_of, touches
 from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS
 from app.model.run import computed, on
 from app.model.setup import FARTHEST_TURN, LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, TABLES
-from app.tabs.lab.words import ball_words, is_caught, scatter_words
+from app.tabs.lab.words import ball_words, scatter_words
 from app.text import speaking
 from tippe_core import (
     Constants,
@@ -317,7 +317,7 @@ def test_without_its_stem_the_ball_alone_is_drawn():
 
 @pytest.mark.parametrize(("law", "caught"), [("coulomb", True), ("contact", False)])
 def test_a_top_that_coulombs_law_catches(law, caught):
-    assert is_caught(on_ordinary(by_hand(law=law, spin=30.0, tilt=5.0, seconds=3.0))) is caught
+    assert on_ordinary(by_hand(law=law, spin=30.0, tilt=5.0, seconds=3.0)).caught is caught
 
 
 # ---- the bead in its well ----

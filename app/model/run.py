@@ -19,7 +19,7 @@ from app.model.phases import Phase, carried, phases, samples
 from app.model.pushes import in_pieces
 from app.model.setup import SECONDS, Push, Setup, start_of
 from app.text import say, told
-from tippe_core import State, Top, TopError, Trajectory, Viscous, glide, grip, roll, slide
+from tippe_core import Coulomb, State, Top, TopError, Trajectory, Viscous, glide, grip, outcome, roll, slide
 from tippe_core.types import Array, Indices
 
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
@@ -73,6 +73,15 @@ class TableMotion(Motion):
             return np.nan
         touch = self.trajectory.supports[-1][0] * self.start.scales.time  # which may be between two samples
         return float(max(self.seconds[slips[-1] + 1], touch))
+
+    @property
+    def caught(self) -> bool:
+        """Whether Coulomb's law at a point held the top before it was past 90 degrees, so that it rolls on, although by
+        its energy it would rise if it went on slipping."""
+        start, moved = self.start, self.trajectory
+        if not isinstance(start.friction, Coulomb) or moved.regime[-1] != "roll" or not np.isnan(moved.time_90):
+            return False
+        return outcome(start.top, start.state).verdict in ("turns over", "hangs")
 
     @property
     def ended_at(self) -> float | None:

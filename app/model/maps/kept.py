@@ -17,12 +17,18 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from app.model.maps.maps import UNITS, Map
+from app.model.maps.maps import AT_FIRST, UNITS, Map
 from app.model.maps.solving import Level, solve
 from tippe_core import kept
 
 DATA = Path(__file__).parents[2] / "data"
-SHIPPED = {Map(): DATA / "map.npz", Map(body="The paper's tippe top"): DATA / "map-paper.npz"}
+PAPERS = "The paper's tippe top"
+SHIPPED = {
+    Map(): DATA / "map.npz",
+    Map(body=PAPERS): DATA / "map-paper.npz",
+    Map(seconds=AT_FIRST): DATA / "map-first.npz",
+    Map(body=PAPERS, seconds=AT_FIRST): DATA / "map-paper-first.npz",
+}
 IN_MEMORY, AS_FILES = 64, 100_000_000  # maps; bytes, of which one of 48 x 48 cells takes some 80,000
 _folder: Path | None = None
 _memory: OrderedDict[Map, Level] = OrderedDict()

@@ -19,6 +19,7 @@ LAWS = ("coulomb", "viscous", "smoothed", "contensou")
 COLOURS_BY = ("end", "time_90", "theta_end", "F_z_least", "flew", "heat", "hops", "growth")
 MOST_CELLS, MOST_SECONDS = 96, 60.0
 MOST_WORK = 48 * 48 * 60.0  # s in all cells: some ten times a usual map, or 96 x 96 cells of 15 s
+AT_FIRST = 4.0  # s, of the map that is shown first: the first top stands on its stem then, half of the runs are decided
 FIRST = 8  # cells along each side of the first, coarse level
 NUDGE = 1e-6  # rad
 
@@ -91,7 +92,7 @@ class Map:
     up_range: tuple[float, float] = (1.0, 40.0)
     law: str = "contensou"
     values: tuple[tuple[str, float], ...] = ()
-    seconds: float = 4.0  # the first top stands on its stem then, and about half of the runs are decided
+    seconds: float = 6.0
     cells: int = 48
     nudged: bool = False
     rtol: float = 1e-6

@@ -23,7 +23,7 @@ from app.state import asked
 from app.state.codecs import Pushes
 from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
-from app.tabs.lab.words import carried_words, is_caught, notes, trace_words
+from app.tabs.lab.words import carried_words, notes, trace_words
 from app.text import listed, say, speaking, spoken
 from app.widgets.controls import valid
 from app.widgets.failure import after
@@ -273,7 +273,7 @@ class LabTab:
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
             "notes": notes(scene) if self.view.level != LEVELS[0] else {},
-            "caught": ordinary is not None and is_caught(ordinary),
+            "caught": ordinary is not None and ordinary.caught,
             "touches": start.shape is not None and start.shape.touch_angle is not None,
             "R": 1e3 * start.scales.R,
             "impulse": start.impulse,

@@ -11,7 +11,6 @@ from app.model.pushes import push_words
 from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.typeset import power
-from tippe_core import Coulomb, outcome
 
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # A smaller drift is numerical error; physics changes a quantity by more.
@@ -78,15 +77,6 @@ def notes(scene):
     found["eps"] = say("planes.notes.eps", speed=100 * velocity * start.eps)
     found["gamma"] = say("planes.notes.gamma", gamma=start.gamma / velocity)
     return found
-
-
-def is_caught(motion):
-    """Whether Coulomb's law at a point held the top before it was past 90 degrees, so that it rolls on, although by its
-    energy it would rise if it went on slipping."""
-    start, moved = motion.start, motion.trajectory
-    if not isinstance(start.friction, Coulomb) or moved.regime[-1] != "roll" or not np.isnan(moved.time_90):
-        return False
-    return outcome(start.top, start.state).verdict in ("turns over", "hangs")
 
 
 # ---- what friction does to the ball alone, and how predictable a run is ----

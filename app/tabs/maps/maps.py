@@ -51,15 +51,17 @@ KINDS_OF, WHY = 3, 3  # kinds of disagreement, and the reasons for each that are
 class Maps:
     """The content of the tab. runs: the page's Runs; scene: the page's, whose top slides; without it, the toy of the
     arrival. throw(toy, spin, tilt, mu, look) makes the run at the bead the start, when a person moves it; look: and
-    shows the Lab. usual: the choices that a link need not mention."""
+    shows the Lab. seconds: of the map that is shown unless a link names one. usual: the choices that a link need not
+    mention."""
 
-    def __init__(self, runs=None, scene=None, throw=None):
+    def __init__(self, runs=None, scene=None, throw=None, seconds=MAP.seconds):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
         self.choice, self.level, self._ones, self._seen, self._outline = MapChoice(), None, [], None, None
         self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen, self._outline = of_page(scene), scene.profile
-            self.choice.asked = self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
+            self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
+            self.choice.asked = replace(self.usual["asked"], seconds=seconds)
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
