@@ -67,7 +67,10 @@ def site(folder, toy=TOY, grid=GRID, look=lambda done, count: None):
     size = sum(len(text.encode()) for text in files.values())
     if size > MOST:
         count, most = prod(map(len, grid.values())), MOST / 1e6
-        raise ValueError(f"{count} starts make {size / 1e6:.1f} MB; allowed are {most:.0f} MB. Name fewer values.")
+        raise ValueError(
+            f"The folder would have {size / 1e6:.1f} MB (starts: {count}); "
+            f"allowed are {most:.0f} MB. Name fewer values."
+        )
     Path(folder).mkdir(parents=True, exist_ok=True)
     for name, text in files.items():
         (Path(folder) / name).write_text(text, encoding="utf-8")
