@@ -15,7 +15,7 @@ from tippe_core.types import Array, Rim
 
 STRONGEST = 2.0  # M (gR)^1/2: some three times what knocks a toy over
 ROUNDED = 1e-3  # relative: a page writes a point with some digits
-UPRIGHT = 1e-4  # below this sine of the tilt 1' is x for a push, as in three/flick.js: phi alone is no angle there
+UPRIGHT = 1e-4  # below this sine of the tilt 1' is x for a push, as in three/impulse.js: phi alone is no angle there
 
 
 def size_words(push: Push) -> str:

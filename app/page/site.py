@@ -96,7 +96,7 @@ def mailed(link, look, below="", **more):
     said, view = _tables(lab, {})
     toy, known = choices.tops(explorer.toy)
     state = head(toy, dict(known)[toy]) | {"tabs": [], "languages": [[spoken(), LANGUAGES[spoken()]]]}
-    words = spoken_words(view, {"": said}, state, explorer.scene) | {"about": say("share.letter.source")}
+    words = spoken_words(view, {"": said}, state) | {"about": say("share.letter.source")}
     says = words["lab"]["texts"]  # without the way to the lesson
     words["lab"] |= look | {"texts": says | {"whys": {}, "more": says["more"] | {"caught": ""}}}
     found = {"languages": {spoken(): spoken()}, "grid": {}, "first": {}, "table": table,
@@ -156,12 +156,14 @@ def stored(toy, grid, look):
         with speaking(language):
             name = listed("build.presets")[toy]["name"]
             listing = {name: "; ".join(figure(value, "g") for value in values) for name, values in grid.items()}
-            about = {"about": say("site.about", toy=name, count=len(runs), **listing)}
-            spoken_now = spoken_words(view, words[language], head(toy, name), explorer.scene) | about
-            found[language] = packed(as_json(spoken_now).encode())
-    lesson = {"runs": runs_of(LESSON, explorer.scene), "others": {}}
+            around = {
+                "about": say("site.about", toy=name, count=len(runs), **listing),
+                "lesson": lesson(explorer.scene),
+            }
+            found[language] = packed(as_json(spoken_words(view, words[language], head(toy, name)) | around).encode())
+    shows = {"runs": runs_of(LESSON, explorer.scene), "others": {}}
     return {"languages": {name: name for name in LANGUAGES}, "grid": grid, "first": first, "words": found, "runs": runs,
-            "lesson": packed(as_json(lesson).encode())}  # fmt: skip
+            "lesson": packed(as_json(shows).encode())}  # fmt: skip
 
 
 def shown(lab, grid, **inputs):
@@ -172,7 +174,7 @@ def shown(lab, grid, **inputs):
         raise ValueError(" ".join(refused.values()))
     view = LabTab(lab, None).view
     state, said = json.loads(view.state), json.loads(view.told)
-    spins = grid.get("spin", [0.0])
+    spins = grid.get("spin", [0.0])  # without them, none of the ends is shown
     ends = [[max(low, min(spins)), min(high, max(spins)), *what] for low, high, *what in state["ends"] or ()
             if high > min(spins) and low < max(spins)]  # fmt: skip
     sliders = {name: slider(values, SLIDERS[name]) for name, values in grid.items() if len(values) > 1}
@@ -187,20 +189,24 @@ def slider(values, known):
     return [low, high, step if even else known[2], known[3]]
 
 
-def spoken_words(view, words, state, scene):
-    """Everything in the language of the page; words: {start: of each table}; state: that of its head."""
+def spoken_words(view, words, state):
+    """The head and the Lab in the language of the page; words: {start: of each table}; state: that of the head."""
     lab = {name: value for name, value in values_of(view).items() if name not in NUMBERS} | {"texts": type(view).says()}
     lab["texts"] |= {"nexts": {name: word for name, word in lab["texts"]["nexts"].items() if name != "research"}}
     lab["texts"] |= {"lets_go": "", "flick_hint": ""}  # a push is a run that is not stored
-    lesson = LessonView.says()
-    lesson |= {"lesson": lesson["lesson"] | {"sections": {}}}
     return {
         "head": {"texts": Head.says() | dict.fromkeys(("tour", "keys", "statement"), ""), "asked": [],
                  "state": state},
         "lab": lab, "told": words, "near": listed("site.near"), "no_number": listed("lab.inputs.no_number"),
-        "lesson": {"texts": lesson, "steps": [said(step, scene) for step in LESSON], "worksheet": worksheet(scene),
-                   "asked": []},
     }  # fmt: skip
+
+
+def lesson(scene):
+    """The lesson in the language of the page, without what is for teachers."""
+    texts = LessonView.says()
+    texts |= {"lesson": texts["lesson"] | {"sections": {}}}
+    steps = [said(step, scene) for step in LESSON]
+    return {"texts": texts, "steps": steps, "worksheet": worksheet(scene), "asked": []}
 
 
 def head(toy, name):
