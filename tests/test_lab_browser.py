@@ -30,6 +30,7 @@ def test_it_flips_with_nothing_clicked_another_table_keeps_the_start_and_a_link_
         page.get_by_text("It stands on its stem and spins on.").wait_for()
         page.wait_for_function(f"{TIME} * {UNIT} > 2")
         assert page.evaluate(TILT) > 170
+        that_it_plays_is_in_the_link_at_once(page)
         another_table(page)
         what_cannot_be(page)
         page.get_by_role("radio", name="Ice").click()
@@ -45,6 +46,16 @@ def test_it_flips_with_nothing_clicked_another_table_keeps_the_start_and_a_link_
             assert entry(other, "Tilt, in degrees").input_value() == "12.0"
             assert line(other) == line(page)
             the_papers_figures(other)
+
+
+def that_it_plays_is_in_the_link_at_once(page):
+    """Also where pictures follow each other so quickly that its time never rests, as the events here."""
+    page.get_by_role("slider", name="Time").press("Home")
+    page.wait_for_function("/[?&]t=/.test(location.search)")
+    frames = page.evaluate("""setInterval(() => dispatchEvent(new CustomEvent("tippe:clock:lab",
+        { detail: { t: performance.now() / 1e5, playing: true } })), 20)""")
+    page.wait_for_function("!/[?&]t=/.test(location.search)")
+    page.evaluate("clearInterval", frames)
 
 
 def another_table(page):

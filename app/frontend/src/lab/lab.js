@@ -105,14 +105,16 @@ export class Lab {
   tells = () => void (this.isTold = true);
 
   // Tells Python whether it plays, and the time at which it rests.
-  tell = debounce(() => {
+  tell() {
     const { model, time } = this, t = time.t / time.unit;
     if (!this.scene || time.held) return;
     this.isTelling = true;
     if (model.playing !== time.playing) model.playing = time.playing;
     if (!time.playing && model.time !== t) model.time = t;
     this.isTelling = false;
-  }, TELL_MS);
+  }
+
+  tellSoon = debounce(() => this.tell(), TELL_MS);
 
   // Sets how much is open, what is shown on the stage, and how fast it plays.
   showLevel = () => {
@@ -213,7 +215,9 @@ export class Lab {
 
   at() {
     if (!this.scene) return;
-    if (this.isTold) this.tell();
+    // While it plays the time never rests: that it plays is told at once, or a link would keep the moment before.
+    if (this.isTold && this.time.playing) this.tell();
+    else if (this.isTold) this.tellSoon();
     this.sound.at(this.time.t, this.time.playing && !this.time.held);
     for (const shown of [this.stage, this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.at(this.time.t);
   }
@@ -221,7 +225,7 @@ export class Lab {
   leave() {
     clearTimeout(this.patience);
     this.show.cancel();
-    this.tell.cancel();
+    this.tellSoon.cancel();
     window.removeEventListener("tippe:command", this.tells);
     for (const gone of [this.sound, this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
     this.unfollow();
