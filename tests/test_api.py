@@ -259,6 +259,15 @@ def test_of_modes_that_grow_alike_the_precession_comes_first():
 # ---- the traps that there were ----
 
 
+def test_a_fast_mode_of_the_slip_hides_none_that_grows():
+    """Next to the pole's threshold, with a patch so small that the slip decays at 1e8."""
+    I = 0.399 + 1.07**2
+    most = 2 * np.sqrt(0.07 / I) * I / (0.408 + 1.07)
+    for radius, share in ((1e-8, 0.9), (1e-7, 0.999)):
+        modes = spinning_modes(Top.paper(), Contensou(0.3, radius), share * most, inverted=True)
+        assert modes[0].real == modes.real.max() > 0.005
+
+
 def test_any_law_is_a_friction():
     assert {*get_args(tippe_core.Friction)} == {Coulomb, Viscous, SmoothedCoulomb, Contensou}
 

@@ -1,6 +1,7 @@
 """slide_many() compared with slide(), run by run, and with what is known of the ends."""
 
 import os
+import pickle
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -19,7 +20,9 @@ from tippe_core import (
     Viscous,
     beside,
     ending,
+    pushed,
     roll,
+    sensitivity,
     slide,
     slide_many,
 )
@@ -153,3 +156,80 @@ def test_growth_of_a_nudge():
     ends = [slide(PAPER, start, friction, [0, 170.0], rtol=1e-11).theta[-1] for start in (state, beside(state, 1e-5))]
     assert many.growth == pytest.approx(abs(ends[1] - ends[0]) / 1e-5, rel=1e-2)
     assert np.isnan(slide_many(PAPER, state, friction, 1.0).growth)
+
+
+@pytest.mark.parametrize("law", [Coulomb(0.3), Viscous(0.3), Contensou(0.3, 1 / 30)])
+@pytest.mark.parametrize(("theta", "vz", "edge"), [(0.3, -1.0, None), (3.0, -0.3, EDGE)])
+def test_a_start_that_moves_into_the_table_is_that_of_one_that_just_comes_down(law, theta, vz, edge):
+    c, s = np.cos(theta), np.sin(theta)
+    low = 1 - PAPER.a * c if edge is None else EDGE[0] * s - (EDGE[1] + PAPER.a) * c
+    starts = [State(theta, 0.0, 0.0, 8.0, z=low + above, vz=vz) for above in (1e-7, 0.0)]
+    falls, there = (slide(PAPER, start, law, [0, 0.05, 2.0], edge=edge) for start in starts)
+    assert there.theta == pytest.approx(falls.theta, abs=1e-5)
+    assert there.heat[1:] == pytest.approx(falls.heat[1:], abs=1e-5) and there.heat[0] > 0.9 * falls.heat[1]
+    assert there.events[0][1] == falls.events[0][1] and there.events[0][0] == 0
+    many = slide_many(PAPER, starts[1], law, 2.0, edge, rtol=1e-9)
+    assert many.theta_end == pytest.approx(there.theta[-1], abs=1e-6)
+    assert many.energy_error == pytest.approx(0, abs=1e-7) and many.heat == pytest.approx(there.heat[-1], abs=1e-6)
+
+
+def test_where_a_run_ends_another_goes_on_also_in_the_air():
+    law, start = SmoothedCoulomb(0.3, 0.3), State(0.3, 0.5, 0, 8, z=3.0, vz=1.0)
+    first = slide_many(PAPER, start, law, [0.5, 1.0, 4.0], rtol=1e-9)
+    whole, then = (
+        slide_many(PAPER, start, law, 6.0),
+        slide_many(PAPER, first.state_end, law, [5.5, 5.0, 2.0], rtol=1e-9),
+    )
+    assert then.theta_end == pytest.approx(np.full(3, whole.theta_end), abs=1e-4)
+    assert first.heat + then.heat == pytest.approx(np.full(3, whole.heat), abs=1e-4)
+
+
+def test_a_nudge_beside_a_start_with_a_height():
+    start = pushed(PAPER, State(0.3, 0, 0, 8.0), (0, 0, 0.5), (0, 0, 1.0), Coulomb(0.3))
+    assert start.z is not None
+    found = slide_many(PAPER, start, Coulomb(0.3), 1.0, nudge=1e-6)
+    assert found.reason == "" and found.growth > 0
+    assert sensitivity(PAPER, start, Coulomb(0.3), [0, 1.0]) == pytest.approx(float(found.growth), rel=0.01)
+    beyond = slide_many(PAPER, State(0.3, 0, 0, 8.0), Coulomb(0.3), 1.0, nudge=5.0)
+    assert beyond.end == "refused" and beyond.reason and np.isnan(beyond.theta_end)
+
+
+def test_one_and_many_are_refused_alike_where_it_may_not_fly():
+    top, edge, law = Top(-0.3, 0.8, 0.6), (0.3, 1.2, 0.0), SmoothedCoulomb(0.3, 0.3)
+    starts = [State(theta, rate, 0.0, spin) for theta in (0.4, 1.0) for rate in (0.0, 2.0) for spin in (1.0, 6.0)]
+    many = slide_many(top, starts, law, 5.0, edge, rtol=1e-9, landing="stop")
+    ones = [slide(top, start, law, np.linspace(0, 5, 501), edge=edge, landing="stop") for start in starts]
+    assert many.end.tolist() == [ending(one).end for one in ones] and "lifts-off" in many.reason
+
+
+def test_next_to_an_unstable_pole_it_leaves_in_proportion():
+    near, far = (slide(PAPER, State(np.pi - away, 0, 0, 0.3), Coulomb(0.3), [0, 20.0]) for away in (1e-8, 1e-6))
+    assert (np.pi - near.theta[-1]) * 100 == pytest.approx(np.pi - far.theta[-1], rel=1e-3)
+    assert np.isfinite(roll(PAPER, None, [0, 1.0], State(np.pi - 1e-8, 0, 0, 0.3)).omega).all()
+
+
+def test_a_law_of_fields_is_the_one_of_which_most_are_there():
+    start, fields = State(0.3, 0, 0, 8.0), SimpleNamespace(mu=0.3, radius=np.array([0.03]))
+    assert (
+        slide_many(PAPER, start, fields, 1.0).theta_end == slide_many(PAPER, start, Contensou(0.3, 0.03), 1.0).theta_end
+    )
+    with pytest.raises(TopError, match="SmoothedCoulomb with mu, eps alone"):
+        slide_many(PAPER, start, SimpleNamespace(mu=0.3, eps=0.1, radius=0.03), 1.0)
+
+
+def test_one_impossible_top_does_not_end_a_map():
+    tops = Top(np.array([0.07, -1e60, -1e150]), 0.4, 0.4)
+    found = slide_many(tops, State(0.3, 0, 0, 1.0), Coulomb(0.3), 0.1)
+    assert found.end[0] != "refused" and len(found.end) == 3
+
+
+def test_an_error_of_another_process_arrives():
+    with pytest.raises(TopError) as refused:
+        slide(PAPER, State(0.3, 0, 0, 8.0), Coulomb(50.0), [0, 1])
+    assert str(pickle.loads(pickle.dumps(refused.value))) == str(refused.value)
+
+
+def test_the_last_progress_is_the_whole():
+    told = []
+    slide(PAPER, State(0.3, 0, 0, 8.0), Coulomb(0.3), [0, 1000.0], progress=told.append)
+    assert told == sorted(told) and told[-1] == 1.0

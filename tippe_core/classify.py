@@ -11,7 +11,8 @@ def judged(refused: bool, on: str, least: float, most: float, rolls: bool) -> st
     """The word for the end, in this order: "refused", "stem" (on its stem alone), "upright" (on its ball, theta < 0.2),
     "inverted" (on its ball, theta > pi - 0.2), "leaning" (theta constant within 0.05 rad), "rolling", "moving".
 
-    on: the support throughout, "" if it changes. least, most: the range of theta, rad. rolls: whether it never slips.
+    on: the support throughout, "" if it changes. least, most: the range of theta, rad, least > most if it ended
+    before. rolls: whether it never slips.
     """
     if refused:
         return "refused"
@@ -21,6 +22,6 @@ def judged(refused: bool, on: str, least: float, most: float, rolls: bool) -> st
         return "upright"
     if on == "ball" and least > np.pi - UPRIGHT:
         return "inverted"
-    if most - least < LEANS:
+    if 0 <= most - least < LEANS:
         return "leaning"
     return "rolling" if rolls else "moving"

@@ -7,7 +7,7 @@ import numpy as np
 
 from .classify import LAST, LEANS, judged
 from .errors import TopError
-from .motion.events import ENDS, EVENTS
+from .motion.events import ENDS, EVENTS, REASONS
 from .motion.trajectory import ANOTHER_TOUCHES, Trajectory
 from .outcomes import steady_states
 from .types import Bools
@@ -17,7 +17,7 @@ QUIET = 1e-3
 # CREEPS, THERE (rad): a mean tilt that changes by less, beside what it swings, stays where it is; so near its end it
 # is there.
 CREEPS, THERE = 1e-3, 3.5e-3
-REFUSED = ("rim touches", ANOTHER_TOUCHES, "Painleve's limit")
+REFUSED = (*(EVENTS[event][0] for event in REASONS), ANOTHER_TOUCHES)
 STOPS = (*(name for name, after in EVENTS if after == ENDS), ANOTHER_TOUCHES)
 
 

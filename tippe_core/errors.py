@@ -90,6 +90,9 @@ class TopError(ValueError):
         said = f"{name} = {shown(value)} is not possible: allowed is {self.allowed}."
         super().__init__(f"{said} {self.remedy}" if self.remedy else said)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _anew, (type(self), self.name, self.value, *self._formats, self.code, self.numbers)
+
     def replaced(self, name: str, value: object, **numbers: Any) -> Self:
         """The same error for a quantity with another name or in another unit: with these numbers in place of its
         own."""
@@ -98,6 +101,13 @@ class TopError(ValueError):
 
 class NoMotionError(TopError):
     """The energy is too low: f < 0 at every theta, so no such motion exists. Its code is "no-motion"."""
+
+
+def _anew(
+    kind: type[TopError], name: str, value: object, allowed: str, remedy: str, code: str, numbers: dict[str, Any]
+) -> TopError:
+    """The error again, as another process takes it."""
+    return kind(name, value, allowed, remedy, code=code, **numbers)
 
 
 def shown(value: object) -> str:

@@ -21,13 +21,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import TopError, finite
-from .motion.friction import Friction, sticks
+from .errors import TopError, finite, single
+from .motion.friction import LAWS, Friction, sticks
 from .paper.top import Top
 from .types import Array
 
 Modes = NDArray[np.complex128]
-ALIKE = 1e-9  # relative to the largest eigenvalue
+ALIKE = 1e-9  # relative to the median eigenvalue, among whose larger ones are those of the slip
 STEP = 1e-30  # of the complex-step derivative, whose truncation error is then below rounding
 
 
@@ -57,6 +57,8 @@ def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = F
     TopError
         for anything else, with the name, the value and the allowed range
     """
+    single("top", top, Top)
+    single("friction", friction, *LAWS)
     a, I1, I3, c, w = top.a, top.I1, top.I3, -1.0 if inverted else 1.0, finite("spin", spin)
     if sticks(friction.law, c * w):
         # F = v' = -(i omega xi' + (a - c) xi''), and c (a c - 1) = a - c
@@ -91,6 +93,8 @@ def tumbling_modes(top: Top, friction: Friction, theta: float) -> Modes:
     TopError
         if there is no such precession at that tilt
     """
+    single("top", top, Top)
+    single("friction", friction, *LAWS)
     y = tumbling(top, theta)
     omega_n = float(y[2] * np.sin(theta) + y[3] * np.cos(theta))
     holds = sticks(friction.law, omega_n)
@@ -148,5 +152,7 @@ def _rolling(y: Modes, top: Top, k: float) -> Modes:
 def _sorted(matrix: NDArray[Any]) -> Modes:
     """The eigenvalues by falling growth. Growths that rounding alone tells apart count as equal."""
     found = np.linalg.eigvals(matrix)
-    growth = np.round(found.real / (ALIKE * np.abs(found).max(initial=ALIKE)))
+    sizes = np.sort(np.abs(found))
+    alike = max(ALIKE * sizes[len(sizes) // 2], 100 * np.finfo(float).eps * sizes[-1])
+    growth = np.round(found.real / (alike or ALIKE))
     return np.asarray(found[np.lexsort((np.abs(found.imag), -growth))], complex)

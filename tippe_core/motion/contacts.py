@@ -114,7 +114,7 @@ def first_negative(found: Array) -> Event:
     return NONE, BALL
 
 
-# ---- touching, leaving ----
+# ---- slipping ----
 
 
 @compiled

@@ -28,6 +28,9 @@ STICKS, SLIPS_OFF, LIFTS_OFF, LANDS, LANDS_ON_STEM, STEM_TOUCHES, BALL_TOUCHES, 
 FALLS_BACK, ROCKS_OVER, RIM_TOUCHES, STANDS_UPRIGHT, PAINLEVE, TOO_MANY_EVENTS, TOO_MANY_STEPS = range(9, 16)
 PASSES_90, FIRST_TOUCH = 16, 17
 SUPPORTS = ("none", "ball", "stem", "both")  # by carried()
+# why a motion is refused that ends with this event
+REASONS = {PAINLEVE: "too-strong", RIM_TOUCHES: "beyond-rim", TOO_MANY_EVENTS: "too-many-events",
+           TOO_MANY_STEPS: "too-many-steps", LIFTS_OFF: "lifts-off"}  # fmt: skip
 # the event in the table that follows from a guard alone, by its kind
 ALONE = np.full(STARTS + 1, NONE)
 ALONE[[BALANCES, STANDS_UP, RIM]] = PAINLEVE, STANDS_UPRIGHT, RIM_TOUCHES

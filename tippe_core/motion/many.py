@@ -18,6 +18,7 @@ from ..types import Array, Bools
 from . import at, events, preparing
 from .dynamics import carried
 from .friction import LAWS
+from .kinds import STARTS, TOUCHES
 from .nudge import beside, checked_nudge
 from .periodic import run_all
 from .poses import sample_at
@@ -35,8 +36,8 @@ class States(NamedTuple):
 
     Attributes
     ----------
-    theta, theta_dot, omega2, omega3, phi, psi, x, y, vx, vy : array
-        as in State
+    theta, theta_dot, omega2, omega3, phi, psi, x, y, vx, vy, z, vz : array
+        as in State; z, vz also where a contact carries
     """
 
     theta: Array
@@ -49,6 +50,8 @@ class States(NamedTuple):
     y: Array
     vx: Array
     vy: Array
+    z: Array
+    vz: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +134,7 @@ def slide_many(
     top, state, friction : Top, State, Friction
         Top and State perhaps with arrays as fields; or lists or arrays of them; or any objects that have their
         fields as arrays, such as types.SimpleNamespace(mu=..., radius=...). The fields that tell a law are mu_k
-        (and perhaps mu_s), gamma, mu and eps, or mu and radius
+        (and perhaps mu_s), gamma, mu and eps, or mu and radius: it is the one of which most are given
     t_end : float or array
         in (R/g)^1/2
     edge : array (..., 2 or 3) or None
@@ -144,7 +147,7 @@ def slide_many(
         as in slide()
     progress : callable or None
         called from time to time with the fraction done; an exception that it raises stops everything and is passed
-        on (in other processes the motions that are under way, CELLS of them each, are still computed)
+        on (where threads compute; elsewhere the motions that are under way, CELLS of them each, are still computed)
     landing : str
         as in slide()
     executor : concurrent.futures.Executor or None
@@ -165,7 +168,7 @@ def slide_many(
     """
     how = _How(preparing.checked_rtol(rtol), None if nudge is None else checked_nudge(nudge),
                preparing.checked_losses(rolling_resistance, air_drag), preparing.flies(landing),
-               threading.Event() if executor is None else None)  # fmt: skip
+               threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None)  # fmt: skip
     rims = np.array(None, object) if edge is None else _rims(edge)
     parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS),
              numbers("t_end", t_end), rims]  # fmt: skip
@@ -199,21 +202,23 @@ def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
         return cells
     if isinstance(given, kinds) and not has_arrays(given):
         return _objects([given], ())
-    missing = {}
-    for kind in kinds:
-        values = {field.name: getattr(given, field.name, None) for field in fields(kind)}
-        missing[kind] = [
-            field.name for field in fields(kind) if field.default is MISSING and values[field.name] is None
-        ]
-        if not missing[kind]:
-            arrays = {
-                field: numbers(field, value, finite=False) for field, value in values.items() if value is not None
-            }
-            shape = common_shape(name, "fields that broadcast together", *arrays.values())
-            columns = (np.broadcast_to(array, shape).ravel().tolist() for array in arrays.values())
-            return _objects([_possible(kind, arrays, row) for row in zip(*columns, strict=True)], shape)
-    wanted = " | ".join(f"{kind.__name__} with {', '.join(names)}" for kind, names in missing.items())
-    raise TopError(name, type(given).__name__, wanted, code="wrong-kind")
+    has = {kind: [field.name for field in fields(kind) if getattr(given, field.name, None) is not None]
+           for kind in kinds}  # fmt: skip
+    missing = {kind: [field.name for field in fields(kind) if field.default is MISSING and field.name not in has[kind]]
+               for kind in kinds}  # fmt: skip
+    found = sorted((kind for kind in kinds if not missing[kind]), key=lambda kind: len(has[kind]), reverse=True)
+    if len(found) > 1 and len(has[found[0]]) == len(has[found[1]]):
+        raise TopError(name, ", ".join(sorted({*has[found[0]], *has[found[1]]})),
+                       " | ".join(f"{kind.__name__} with {', '.join(has[kind])} alone" for kind in found[:2]),
+                       code="wrong-kind")  # fmt: skip
+    if not found:
+        wanted = " | ".join(f"{kind.__name__} with {', '.join(names)}" for kind, names in missing.items())
+        raise TopError(name, type(given).__name__, wanted, code="wrong-kind")
+    kind, names = found[0], has[found[0]]
+    arrays = {field: numbers(field, getattr(given, field), finite=False) for field in names}
+    shape = common_shape(name, "fields that broadcast together", *arrays.values())
+    columns = (np.broadcast_to(array, shape).ravel().tolist() for array in arrays.values())
+    return _objects([_possible(kind, arrays, row) for row in zip(*columns, strict=True)], shape)
 
 
 def _possible(kind: type, names: Iterable[str], row: tuple[float, ...]) -> Any:
@@ -244,15 +249,17 @@ def _all(cells: list[Any], how: _How, progress: Callable[[float], object] | None
 
 def _some(cells: list[Any], how: _How) -> Any:
     """The RESULTs of some motions: what each came to, or that it is refused, and why."""
-    found = np.zeros(len(cells), RESULT)
-    found["end"] = "refused"
+    refused = np.zeros((), RESULT)
+    refused["end"] = "refused"
     for name in ("state", *NUMBERS):
-        found[name] = np.nan
-    for row, cell in zip(found, cells, strict=True):
+        refused[name] = np.nan
+    found = np.full(len(cells), refused)
+    for n, cell in enumerate(cells):
         try:
-            _compute(row, cell, how)
+            _compute(found[n], cell, how)
         except TopError as error:
-            row["reason"] = error.code
+            found[n] = refused
+            found[n]["reason"] = error.code
     return found
 
 
@@ -270,22 +277,19 @@ def _compute(row: Any, cell: tuple[Any, ...], how: _How) -> None:
     _run_to_end(row, state, P, t_end, how)
     if how.nudge is not None:
         near = np.zeros((), RESULT)[()]
-        _run_to_end(near, beside(state, how.nudge), P, t_end, how)
+        _run_to_end(near, beside(state, how.nudge, P), P, t_end, how)
         row["growth"] = abs(near["state"][0] - row["state"][0]) / abs(how.nudge)
-
-
-# why a motion is refused that ends with this event
-REASONS = {events.PAINLEVE: "too-strong", events.RIM_TOUCHES: "beyond-rim", events.TOO_MANY_EVENTS: "too-many-events",
-           events.LIFTS_OFF: "lifts-off"}  # fmt: skip
 
 
 def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> None:
     y, angles = preparing.beginning(state, 0.0, P)
     W, log, status = preparing.motion(y, angles), np.zeros(2 * CELL_EVENTS, LOG), ENDED
-    _, goes_on = preparing.start(W, P, state)
-    E = energy_at(W, P)
+    event, goes_on = preparing.start(W, P, state)
+    E = energy_at(W, P) + W.y[at.HEAT]
     begin(W, P, log, (1 - LAST) * t_end)
-    if goes_on and not carried(*W.modes) and not how.flies and state.z is None:
+    if goes_on and event[0] == TOUCHES:
+        events.logged(W, log, events.change(OPEN, OPEN, *W.modes, event), *W.modes)
+    if goes_on and not carried(*W.modes) and not how.flies and event[0] == STARTS:
         events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
     elif goes_on:
         status = MORE
@@ -294,14 +298,23 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
     T, entries, here = W.summary, log[: W.logged], new(SAMPLE)
     last = entries["name"][-1] if status == ENDED and len(entries) else -1
     reason = ("too-strong" if not goes_on else "too-many-steps" if status == MORE
-              else REASONS.get(last, "") if np.all(np.isfinite(W.y)) else "not-followed")  # fmt: skip
+              else events.REASONS.get(last, "") if np.all(np.isfinite(W.y)) else "not-followed")  # fmt: skip
     on = (
         "stem"
         if last == events.STANDS_UPRIGHT
         else {1 << i: support for i, support in enumerate(events.SUPPORTS)}.get(T.seen, "")
     )
     sample_at(W, P, OPEN, OPEN, here)
-    row["state"] = [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2]]
+    row["state"] = [
+        here.theta,
+        *here.omega,
+        here.phi,
+        here.psi,
+        *here.com[:2],
+        *here.velocity[:2],
+        here.com[2],
+        here.velocity[2],
+    ]
     row["time_90"], row["time_stem"] = (
         events.first(entries, events.PASSES_90),
         events.first(entries, events.FIRST_TOUCH),

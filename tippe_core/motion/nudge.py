@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite
+from ..errors import TopError, finite, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Number
-from .friction import Friction
+from . import preparing
+from .friction import LAWS, Friction
+from .records import Record
 from .sliding import slide
 from .trajectory import Trajectory
 
@@ -42,7 +44,11 @@ def sensitivity(
         as slide(); for nudge = 0
     """
     nudge = checked_nudge(nudge)
-    moved, near = (slide(top, start, friction, times, **how) for start in (state, beside(state, nudge)))
+    single("top", top, Top)
+    single("state", state, State)
+    single("friction", friction, *LAWS)
+    P = preparing.problem(top, friction, preparing.checked_edge(how.get("edge")), (0.0, 0.0), 1e-9)
+    moved, near = (slide(top, start, friction, times, **how) for start in (state, beside(state, nudge, P)))
     return growth(moved, near, nudge)
 
 
@@ -53,7 +59,7 @@ def checked_nudge(nudge: float) -> float:
     return float(nudge)
 
 
-def beside(state: State, nudge: float) -> State:
+def beside(state: State, nudge: float, P: Record | None = None) -> State:
     """The State with a larger theta, or a smaller one if theta is 1 rad or more.
 
     Parameters
@@ -62,13 +68,18 @@ def beside(state: State, nudge: float) -> State:
         of one motion
     nudge : float
         the change of theta, rad
+    P : Record or None
+        of the motion (preparing.problem()): with it a State with z is as high above the table as before
 
     Returns
     -------
     State
         with the other fields as they are
     """
-    return replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
+    theta = state.theta + (nudge if state.theta < 1 else -nudge)
+    if P is None or state.z is None:
+        return replace(state, theta=theta)
+    return replace(state, theta=theta, z=state.z + preparing.height(P, theta) - preparing.height(P, state.theta))
 
 
 def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:

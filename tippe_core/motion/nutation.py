@@ -83,8 +83,8 @@ class Nutation(ABC):
     _place: tuple[float, float]  # in the ratio sin(kappa/2) : cos(kappa/2) at the start
 
     @abstractmethod
-    def _dt_dkappa(self, v: Array, m: Array) -> Array:
-        """dt/dkappa (n,) at v = 1 - c, m = 1 + c, (n,)."""
+    def _dt_dkappa(self, cos_half: Array, sin_half: Array, v: Array, m: Array) -> Array:
+        """dt/dkappa (n,) at cos(kappa/2), sin(kappa/2), v = 1 - c, m = 1 + c, (n,)."""
 
     @abstractmethod
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
@@ -120,7 +120,7 @@ class Nutation(ABC):
         """The smallest set of midpoints in kappa itself."""
         cos_half, sin_half, dkappa_deta = crowded(NODES_LEAST, None)
         v, m = v_and_m(cos_half, sin_half, self.ends)
-        dt_dkappa = self._dt_dkappa(v, m)
+        dt_dkappa = self._dt_dkappa(cos_half, sin_half, v, m)
         return Nodes(cos_half, sin_half, v, m, dt_dkappa, dt_dkappa, dkappa_deta)
 
     @cached_property

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, finite, numbers
+from ..errors import TopError, finite, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
@@ -12,7 +12,7 @@ from . import at
 from .contacts import CLOSED, settle
 from .dynamics import arrange, turning
 from .friction import Friction
-from .kinds import STARTS
+from .kinds import NONE, STARTS, TOUCHES, Event
 from .poses import sample_at
 from .records import BALL, MOTION, NO_ONE, OPEN, PROBLEM, SAMPLE, SLIP, STEM, Record, new
 from .standing import leaned
@@ -79,17 +79,22 @@ def strongest_friction(top: Top) -> float:
     float
         inf for a = 0
     """
-    a, I1, _ = top.numbers
+    a, I1, _ = single("top", top, Top).numbers
     if a == 0:
         return np.inf
-    # the logarithmic derivative is 0 where, with x = c,
-    # 2 a^2 x (1 - a x)(1 - x^2) = (I1 + a^2 (1 - x^2)) [a (1 - x^2) + x (1 - a x)]
+    # with p = q/a and J = I1 p^2, q = 1 or, so that nothing overflows, a: the minimum of
+    # (J + q^2 s^2)/(|q| |p - q c| s), whose logarithmic derivative is 0 where, with x = c,
+    # 2 q^2 x (p - q x)(1 - x^2) = (J + q^2 (1 - x^2)) [q (1 - x^2) + x (p - q x)]
+    p, J, q = (1.0, I1, a) if abs(a) <= 1 else (1 / a, I1 / a / a, 1.0)
     x = np.poly1d([1.0, 0.0])
-    s2, arm = 1 - x**2, 1 - a * x
-    flat = (I1 + a * a * s2) * (a * s2 + x * arm) - 2 * a * a * x * arm * s2
+    s2, arm = 1 - x**2, p - q * x
+    flat = (J + q * q * s2) * (q * s2 + x * arm) - 2 * q * q * x * arm * s2
     c = np.array([root.real for root in flat.roots if abs(root.imag) < 1e-9 and abs(root.real) < 1])
     s = np.sqrt(1 - c * c)
-    return float(np.min((I1 + (a * s) ** 2) / (abs(a * (1 - a * c)) * s)))
+    thin = min((J / (q * q)) ** 0.5, 1.0)  # s next to a pole, where c alone does not tell it from 1
+    c, s = np.append(c, [(1 - thin**2) ** 0.5, -((1 - thin**2) ** 0.5)]), np.append(s, [thin, thin])
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+        return float(np.nanmin((J + (q * s) ** 2) / (abs(q * (p - q * c)) * s)))
 
 
 def check_balance(top: Top, friction: Friction) -> None:
@@ -166,6 +171,12 @@ def gap(P: Record, c: Number, s: Number) -> Number:
     return 1 + P.h * c - P.b * s - P.q
 
 
+def height(P: Record, theta: float) -> float:
+    """Height (R) of G above the table while the lower contact touches it."""
+    c, s = np.cos(theta), np.sin(theta)
+    return float(1 - P.a * c - (min(gap(P, c, s), 0.0) if P.stem else 0.0))
+
+
 def lower(P: Record, theta: float) -> int:
     """The contact that is on the table if nothing else is said."""
     return STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
@@ -178,15 +189,15 @@ def on_table(W: Record, P: Record, i: int) -> None:
     W.y[at.VZ], W.y[at.Z] = W.contacts.G[2], W.contacts.G[3]
 
 
-def start(W: Record, P: Record, state: State) -> tuple[int, bool]:
-    """place(), and the modes in which the motion continues. Returns the lower contact; False beyond Painleve's
-    limit."""
-    i, carries = place(W, P, state)
-    return i, not carries or bool(settle(W.y, (STARTS, i), W.modes, P, W.step, W.contacts))
+def start(W: Record, P: Record, state: State) -> tuple[Event, bool]:
+    """place(), and the modes in which the motion continues; False beyond Painleve's limit."""
+    event = place(W, P, state)
+    return event, event[0] == NONE or bool(settle(W.y, event, W.modes, P, W.step, W.contacts))
 
 
-def place(W: Record, P: Record, state: State) -> tuple[int, bool]:
-    """Sets W.y on the contact that touches, or in flight. Returns the lower contact, and whether it carries.
+def place(W: Record, P: Record, state: State) -> Event:
+    """Sets W.y on the contact that touches, or in flight. Returns what happens at the lower contact: STARTS, TOUCHES
+    where it moves down, so that an impact is to follow, or NONE in flight.
 
     With z and vz a contact at the table that moves up is open; if the other one is at the table too and does not, that
     one carries.
@@ -200,10 +211,12 @@ def place(W: Record, P: Record, state: State) -> tuple[int, bool]:
             raise TopError("z", state.z, "z >= {least:.10g}", least=state.z - above)
         closed = [j for j in (i, 1 - i)[: 1 + P.stem] if C.height[j] <= CLOSED and C.u[j, 2] <= CLOSED]
         if not closed:
-            return i, False
+            return NONE, i
         i = closed[0]
+        if min(C.u[j, 2] for j in closed) < -CLOSED:
+            return TOUCHES, i
     on_contact(W, P, i)
-    return i, True
+    return STARTS, i
 
 
 @compiled

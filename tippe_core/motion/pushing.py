@@ -74,7 +74,7 @@ def pushed(
     preparing.check_balance(top, friction)
     P = preparing.problem(top, friction, preparing.checked_edge(edge), (0.0, 0.0), RTOL)
     W = preparing.motion(*preparing.beginning(state, 0.0, P))
-    low, _ = preparing.place(W, P, state)
+    _, low = preparing.place(W, P, state)
     y, e = W.y, np.array(turning(W.y, P)[0])
     above = float(y[of_y.Z] + top.a * e[2] + point[2])  # O is at z_G + a cos(theta)
     if above < -CLOSED:

@@ -122,12 +122,17 @@ class Rolling(Nutation):
         at_inner = self._place[0] == 0
         cos_half, sin_half = (np.array([float(x)]) for x in (at_inner, not at_inner))
         v, m = v_and_m(cos_half, sin_half, self.ends)
-        w1, w2, w3 = rolling_omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)[0]
+        w1, w2, w3 = rolling_omega(cos_half, sin_half, v, m, self._dt_dkappa(cos_half, sin_half, v, m),
+                                   self._curve, self.ends.width)[0]  # fmt: skip
         pole = v[0] * m[0] == 0
         return State(self.turning_points[0 if at_inner else 1], w1 if pole else 0.0, 0.0 if pole else w2, w3)
 
-    def _dt_dkappa(self, v: Array, m: Array) -> Array:
-        return rolling_dt_dkappa(v, m, self._curve, self.e, self.ends)
+    def _dt_dkappa(self, cos_half: Array, sin_half: Array, v: Array, m: Array) -> Array:
+        found = rolling_dt_dkappa(v, m, self._curve, self.e, self.ends)
+        lost = np.isnan(found)  # next to an unstable pole rounding takes Q below 0
+        if lost.any():
+            found[lost] = self._exact_dt_dkappa(np.maximum(cos_half[lost], 1e-10), np.maximum(sin_half[lost], 1e-10))
+        return found
 
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
         curve, inner, outer = self._exact
@@ -152,7 +157,8 @@ class Rolling(Nutation):
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
-        return rolling_omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)
+        dt_dkappa = self._dt_dkappa(cos_half, sin_half, v, m)
+        return rolling_omega(cos_half, sin_half, v, m, dt_dkappa, self._curve, self.ends.width)
 
     def _contact_velocity(self, nodes: Nodes) -> Complex:
         return contact_velocity(*nodes[:5], self._curve, self.ends)

@@ -35,7 +35,8 @@ NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin at which a patch may come to rest
 def run(
     W: Record, P: Record, log: Array, times: Array, rows: Array, end: float, flies: bool, hands_over: bool, steps: int
 ) -> int:
-    """Integrates across events: OVER, MORE after so many steps, ROLLS if hands_over, or ENDED. log lists the events."""
+    """Integrates across events: OVER, MORE after so many steps, HANDS_OVER if hands_over and it rolls, or ENDED. log
+    lists the events."""
     limit = W.steps + steps
     while True:
         if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and is_point(P.law):

@@ -1,7 +1,7 @@
 """Motion with friction at the contact point, which is what turns a tippe top over.
 
-The equations are in dynamics.py, their integration in stepper.py and following.py, and contacts, impacts and standing
-in contacts.py, impact.py and standing.py. This file checks the arguments and builds the results.
+The equations are in dynamics.py, their integration in stepper.py, implicit.py and run.py, and contacts, impacts and
+standing in contacts.py, impact.py and standing.py. This file checks the arguments and builds the results.
 """
 
 from collections.abc import Callable
@@ -17,6 +17,7 @@ from ..types import Array
 from . import at, events, preparing
 from .dynamics import carried
 from .friction import LAWS, Friction
+from .kinds import NONE, STARTS, TOUCHES
 from .poses import REGIMES, sample_at
 from .records import LOG, OPEN, SAMPLE, SLIP
 from .rolling_part import RollingPart
@@ -156,14 +157,16 @@ class Sliding:
         self._last = self._begins = float(begins)
         self._part: RollingPart | None = None
         self._sinks: tuple[int, float] | None = None  # the row, and the time, at which another part touches
-        self._stands_on, goes_on = preparing.start(W, P, state)
+        (kind, self._stands_on), goes_on = start = preparing.start(W, P, state)
         begin(W, P, self._log, np.inf)
         self._first = carried(*W.modes) if goes_on else 1 + self._stands_on
         if not goes_on:
             events.logged(W, self._log, events.PAINLEVE, OPEN, OPEN)
-        elif self._first == 0 and state.z is None:
+        elif kind == TOUCHES:
+            events.logged(W, self._log, events.change(OPEN, OPEN, *W.modes, start[0]), *W.modes)
+        elif self._first == 0 and kind == STARTS:
             events.logged(W, self._log, events.LIFTS_OFF, OPEN, OPEN)
-        self.ended = not (goes_on and (self._first or self._flies or state.z is not None))
+        self.ended = not (goes_on and (self._first or self._flies or kind == NONE))
 
     def until(self, times: ArrayLike, progress: Progress = None) -> Trajectory:
         """Goes on, at these times.
@@ -199,6 +202,8 @@ class Sliding:
                 self._fill(t, rows, progress)
             finally:
                 self._add(t, rows[: self._W.samples])
+        if progress:
+            progress(1.0)
         return self.trajectory
 
     @property
@@ -227,8 +232,8 @@ class Sliding:
         while status in (MORE, HANDS_OVER):
             status = HANDS_OVER if self._part else run(W, P, log, times, rows, np.inf, self._flies, exact, steps)
             self.ended = status == ENDED
-            if progress and status in (MORE, HANDS_OVER):
-                progress(float(min(1.0, (W.y[at.TIME] - begins) / (ends - begins))) if ends > begins else 1.0)
+            if progress and status in (MORE, HANDS_OVER) and ends > begins:
+                progress(float(min(1.0, (W.y[at.TIME] - begins) / (ends - begins))))
             if status == HANDS_OVER and self._rolls(times, rows):
                 return
             if status == MORE and W.steps >= MOST_STEPS:

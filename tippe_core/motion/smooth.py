@@ -117,11 +117,11 @@ class Gliding(Nutation):
             self._B_slope = float(L3 / t.I1)
             self.E, self.L_z, self.L_3 = float(e + L3 * w3) / 2, float(L_z), float(L3)
 
-    def _dt_dkappa(self, v: Array, m: Array) -> Array:
+    def _dt_dkappa(self, cos_half: Array, sin_half: Array, v: Array, m: Array) -> Array:
         return gliding_dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.ends)
 
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
-        return self._dt_dkappa(*v_and_m(cos_half, sin_half, self.ends))  # nothing cancels in Q
+        return self._dt_dkappa(cos_half, sin_half, *v_and_m(cos_half, sin_half, self.ends))  # nothing cancels in Q
 
     def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
@@ -134,7 +134,14 @@ class Gliding(Nutation):
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
         return gliding_omega(
-            cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.ends
+            cos_half,
+            sin_half,
+            v,
+            m,
+            self._dt_dkappa(cos_half, sin_half, v, m),
+            self._B_slope,
+            self.start.omega3,
+            self.ends,
         )
 
     @cached_property

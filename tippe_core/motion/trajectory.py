@@ -158,6 +158,8 @@ class Trajectory:
         """The State at the time t, from t[0] to t[-1]: linear between the two nearest instants. x, y are those of G; z
         and vz too while nothing carries it."""
         t = finite("t", t)
+        if np.any(np.diff(self.t) < 0):
+            raise TopError("t", t, "times[i] <= times[i + 1] of its Trajectory", code="falling")
         if not self.t[0] <= t <= self.t[-1]:
             raise TopError("t", t, "{first:.10g} to {last:.10g}", code="outside-times", first=float(self.t[0]),
                            last=float(self.t[-1]))  # fmt: skip
