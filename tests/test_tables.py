@@ -114,7 +114,7 @@ def test_a_start_by_constants_is_the_rolling_motion():
     assert rough.routh == pytest.approx(np.full(len(rough.t), scene.constants.K_R), abs=1e-9)
     for table in TABLES:
         assert lab.scene.motions[table].slip[0] == pytest.approx(0, abs=1e-12)
-    explorer.K_J = 6.0
+    explorer.set(K_J=6.0)
     assert lab.scene.motions["rough"].trajectory.jellett[0] == pytest.approx(6.0 * 0.399)
 
 
