@@ -308,7 +308,7 @@ def run(repetitions, port):
 
     def moves():
         for place in places:
-            explorer.K_J = float(place)
+            explorer.set(K_J=float(place))
 
     spent = medians(5, moves=moves)["moves"] / len(places)
     ratio = spent / one["plain"]

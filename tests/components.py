@@ -147,7 +147,7 @@ def lab(alone, monkeypatch):
     def open_(start=(), **like):
         found = alone(**like)
         found.lab = Lab()
-        found.lab.start.param.update(**dict(start))
+        found.lab.explorer.set(**dict(start))
         found.lab.show()
         found.lab.rest()
         found.show(LabTab(found.lab, None).view)

@@ -13,7 +13,7 @@ PAPERS = "The paper's tippe top"
 
 def builder_of(explorer):
     """A Builder that sends its requests to this Explorer, and follows its scenes."""
-    builder = Builder(explorer.scene, explorer.param.update)
+    builder = Builder(explorer.scene, explorer.set)
     explorer.param.watch(lambda event: builder.follow(event.new), "scene")
     return builder
 

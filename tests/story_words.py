@@ -65,6 +65,12 @@ def between(said, match):
     return joined(differs(match[1], least), differs(match[2], most))
 
 
+@claims(rf"goes from {N}° to {N}°, between {N}° and {N}°")
+def from_to_between(said, match):
+    first, last, least, most = (float(number.replace("\N{MINUS SIGN}", "-")) for number in match.groups())
+    return None if least <= min(first, last) and max(first, last) <= most else "two numbers that contradict each other"
+
+
 @claims(rf"between {N}° and {N}° on (?:the )?(rough|ice)")
 def between_on(said, match):
     whole = said.of(match[3].lower())

@@ -8,9 +8,10 @@ import pytest
 from test_start import visitor
 
 from app.model import tell
+from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
 from app.model.setup import LAWS, TOYS
-from app.model.start import Start, arrives
+from app.model.start import arrives
 from app.state.opened import opened
 from app.state.url_state import explorer_of, read
 from app.tabs.lab.lab import LabTab
@@ -36,7 +37,7 @@ def start_of(query):
 @pytest.mark.parametrize("law", LAWS)
 def test_a_link_with_a_law_opens_the_lab_with_it(law, more):
     assert opened(read(link(law, more))[0]) == "lab"
-    lab = Lab(start=start_of(link(law, more)))
+    lab = Lab(explorer=start_of(link(law, more)))
     lab.show()
     assert lab.scene.motions["ordinary"].start.friction == FRICTION[law] and not lab.scene.messages
 
@@ -73,11 +74,11 @@ def test_an_older_link_of_the_toy_has_the_contact_that_it_had():
 
 
 def test_static_friction_is_that_of_sliding_until_it_is_set():
-    start = Start(**arrives() | {"law": "coulomb"})
-    start.mu = 0.21
+    start = Explorer(**arrives() | {"law": "coulomb"})
+    start.set(mu=0.21)
     assert start.setup.friction == Coulomb(0.21, 0.21)
-    start.mu_s = 0.4
-    start.mu = 0.25
+    start.set(mu_s=0.4)
+    start.set(mu=0.25)
     assert start.setup.friction == Coulomb(0.25, 0.4)
 
 
@@ -85,11 +86,11 @@ def test_what_rolls_has_the_friction_that_slides_until_another_is_set():
     explorer = start_of("?v=3&mu_k=.2")
     explorer.settle()
     assert explorer.scene.mu_s == 0.2
-    explorer.mu = 0.35
+    explorer.set(mu=0.35)
     assert explorer.scene.mu_s == 0.35
-    explorer.mu_s = 0.6
+    explorer.set(mu_s=0.6)
     scene = explorer.scene
-    explorer.mu = 0.4
+    explorer.set(mu=0.4)
     assert explorer.scene is scene and scene.mu_s == 0.6
 
 
@@ -109,7 +110,7 @@ def test_a_link_opens_with_both(query, static, sliding):
 @pytest.mark.parametrize("law", LAWS)
 def test_explore_research_and_back_is_the_same_start(law):
     with visitor("") as (session, seen):
-        session.explorer.param.update(law=law, gamma=0.5)
+        session.explorer.set(law=law, gamma=0.5)
         session.url_state.commit()
         before, scene = session.explorer.setup, session.lab_of.scene
         seen.level = "research"
@@ -129,7 +130,7 @@ def test_explore_research_and_back_is_the_same_start(law):
 
 def test_a_law_is_undone():
     with visitor("") as (session, _):
-        session.explorer.law = "viscous"
+        session.explorer.set(law="viscous")
         session.url_state.commit()
         assert "law=viscous" in session.url_state.query
         session.url_state.undo()
@@ -147,7 +148,7 @@ def test_a_place_on_a_map_is_watched_with_the_contact_of_the_map():
     ("contact", ["patch"]), ("coulomb", ["mu_s"]), ("viscous", ["gamma"]), ("smoothed", ["eps"]),
 ])  # fmt: skip
 def test_the_page_says_which_law_it_is_and_has_its_inputs_only(law, inputs):
-    lab = Lab(start=start_of(link(law)))
+    lab = Lab(explorer=start_of(link(law)))
     lab.show()
     tab = LabTab(lab, lambda: None)
     state, told = json.loads(tab.view.state), json.loads(tab.view.told)
@@ -167,7 +168,7 @@ def test_a_law_is_gone_back_from():
     """Before.js asks for the law of the run before."""
     lab = Lab()
     lab.show()
-    lab.start.law = "coulomb"
+    lab.explorer.set(law="coulomb")
     assert lab.scene.start.law == "coulomb"
     lab.ask(law="contact")
     assert lab.scene.start == Lab().inputs[1] and not lab.scene.messages
@@ -176,9 +177,9 @@ def test_a_law_is_gone_back_from():
 
 
 def test_static_friction_below_the_sliding_one_is_refused_and_all_goes_back():
-    lab = Lab(start=start_of(link("coulomb")))
+    lab = Lab(explorer=start_of(link("coulomb")))
     lab.show()
     scene = lab.scene
     lab.ask(mu_s=0.1)
-    assert "mu_s" in lab.scene.messages and lab.scene.motions is scene.motions and lab.start.static == 0.3
+    assert "mu_s" in lab.scene.messages and lab.scene.motions is scene.motions and lab.explorer.static == 0.3
     assert lab.nearest == {"mu_s": 0.3}

@@ -59,7 +59,7 @@ def test_the_papers_top_is_one_wherever_it_is_chosen_and_what_its_lengths_give_h
     builder.choose("Appendix A's shape, a = 0.0698")
     assert explorer.scene.top == TruncatedSphere.paper().top and round(explorer.scene.top.a, 4) == 0.0698
     assert builder.draft.name == "Appendix A's shape, a = 0.0698"
-    explorer.param.update(a=0.070, I1=0.399, I3=0.408)  # as undo does
+    explorer.set(a=0.070, I1=0.399, I3=0.408)  # as undo does
     assert builder.draft.name == "The paper's tippe top"
 
 
@@ -131,7 +131,7 @@ def test_a_bad_dimension_is_said_at_its_field_and_changes_nothing(explorer, buil
 
 
 def test_moving_a_I1_I3_parts_them_from_the_body_and_says_so(explorer, builder):
-    explorer.I1 = 0.42
+    explorer.set(I1=0.42)
     assert explorer.scene.shape is None
     assert any("set independently of the body" in note for note in explorer.scene.notes)
     assert explorer.scene.profile[-1] == pytest.approx([0, 1])
@@ -142,7 +142,7 @@ def test_moving_a_I1_I3_parts_them_from_the_body_and_says_so(explorer, builder):
 
 def test_the_stem_touches_the_table_where_physics_md_has_it(explorer, builder):
     assert np.degrees(builder.draft.shape.touch_angle) == pytest.approx(119, abs=0.5)
-    explorer.param.update(upper=False, K_J=-5.0, K_R=10.0, energy=0.9)
+    explorer.set(upper=False, K_J=-5.0, K_R=10.0, energy=0.9)
     assert explorer.scene.turning[1] > builder.draft.shape.touch_angle
     assert any("119°" in note for note in explorer.scene.notes)
 

@@ -340,12 +340,12 @@ from app.model.setup import LAWS
 explorer = Explorer()
 for step in lesson.STEPS:
     step.answer(lesson.planned(step, explorer.scene))
-explorer.param.update(given="hand", spin=20.0, tilt=10.0, table="three")
-lab = Lab(start=explorer)
+explorer.set(given="hand", spin=20.0, tilt=10.0, table="three")
+lab = Lab(explorer=explorer)
 lab.show()
 for law in LAWS:
     lab.ask(law=law)
-    explorer.given = "state"
+    explorer.set(given="state")
     lab.ask(spin=20.0)
 for top in known_tops():
     top.shown(0.5)

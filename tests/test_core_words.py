@@ -10,7 +10,7 @@ from doubles import builder_of
 from app.model.build.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer
 from app.model.lab.examples import EXAMPLES as STARTS
-from app.model.motion import THROWN
+from app.model.run import THROWN
 from app.tabs.lab.words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide

@@ -25,7 +25,7 @@ def motion(request):
     state = {"theta": rng.uniform(0.3, 2.7), "theta_dot": rng.normal(), "omega2": 2 * rng.normal(),
              "omega3": 5 * rng.normal(), "phi": rng.uniform(-3, 3), "psi": rng.uniform(-3, 3)}  # fmt: skip
     explorer = Explorer(**top)
-    explorer.param.update(given="state", **state)
+    explorer.set(given="state", **state)
     assert not explorer.scene.messages and explorer.scene.state.theta == state["theta"]
     return {"rough": stretches.rolled(explorer.scene), "smooth": stretches.glided(explorer.scene)}
 

@@ -14,6 +14,7 @@ import app.model.scene
 from app.model.explorer import Explorer
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
 from app.model.scene import solve
+from app.model.start import GIVEN
 from app.widgets.controls import Controls
 from tippe_core import (
     Constants,
@@ -41,7 +42,7 @@ def test_several_inputs_make_one_solve_and_one_event(explorer, monkeypatch):
     monkeypatch.setattr(
         app.model.explorer, "solve", lambda *inputs, **face: solves.append(inputs) or solve(*inputs, **face)
     )
-    explorer.param.update(K_J=5.0, K_R=9.0, mu_s=0.4, energy=0.5)
+    explorer.set(K_J=5.0, K_R=9.0, mu_s=0.4, energy=0.5)
     assert len(solves) == len(scenes) == 1
     assert scenes[0] is explorer.scene
     assert (explorer.scene.constants.K_J, explorer.scene.constants.K_R, explorer.scene.mu_s) == (5.0, 9.0, 0.4)
@@ -56,16 +57,16 @@ def test_the_scene_cannot_be_set_or_changed_from_outside(explorer):
 
 def test_what_did_not_change_is_the_same_object(explorer):
     plane = explorer.scene.plane
-    explorer.K_J = 6.0
+    explorer.set(K_J=6.0)
     assert explorer.scene.plane is plane
-    explorer.mu_s = 0.3
+    explorer.set(mu_s=0.3)
     assert explorer.scene.plane is not plane
 
 
 def test_the_energy_goes_from_rolling_through_slipping_to_lifting_off(explorer):
     seen = []
     for share in (0.0, 0.5, 0.999, 1.01, 1.99, 2.01):
-        explorer.energy = share
+        explorer.set(energy=share)
         seen.append(explorer.scene.regime.max())
     assert seen == [ROLLS, ROLLS, ROLLS, WOULD_SLIP, WOULD_SLIP, WOULD_LIFT]
     assert explorer.scene.normal.min() < 0
@@ -90,7 +91,7 @@ def test_share_and_energy_are_each_others_inverse(explorer, share):
 )
 def test_what_cannot_be_is_said_beside_its_control_and_the_picture_stays(explorer, name, value, says):
     good, before = explorer.scene, getattr(explorer, name)
-    setattr(explorer, name, value)
+    explorer.set(**{name: value})
     assert list(explorer.scene.messages) == [name]
     assert says in explorer.scene.messages[name]
     for part in dataclasses.fields(good):
@@ -99,18 +100,18 @@ def test_what_cannot_be_is_said_beside_its_control_and_the_picture_stays(explore
     asked = explorer.scene.inputs
     assert {key for key, was in good.inputs.items() if asked[key] is not was and asked[key] != was} <= {name, "E"}
     assert asked[name] is value
-    setattr(explorer, name, before)
+    explorer.set(**{name: before})
     assert not explorer.scene.messages
 
 
 def inputs_of(explorer):
-    return {name: getattr(explorer, name) for names in Explorer.GIVEN.values() for name in names}
+    return {name: getattr(explorer, name) for names in GIVEN.values() for name in names}
 
 
 def test_constants_and_initial_state_follow_each_other_to_the_last_digit(explorer):
     start = State(0.6, 1.5, -2.0, 9.0)
     scenes = watch(explorer)
-    explorer.param.update(theta=0.6, theta_dot=1.5, omega2=-2.0, omega3=9.0)
+    explorer.set(theta=0.6, theta_dot=1.5, omega2=-2.0, omega3=9.0)
     assert explorer.given == "state" and len(scenes) == 1 and not explorer.scene.messages
     constants = Constants.from_state(Top.paper(), 0.6, 1.5, -2.0, 9.0)
     assert explorer.scene.constants == constants
@@ -119,7 +120,7 @@ def test_constants_and_initial_state_follow_each_other_to_the_last_digit(explore
     assert np.array_equal(explorer.scene.trajectory.quaternion, expected.quaternion)
     assert explorer.scene.trajectory.theta[0] == pytest.approx(0.6, abs=1e-15)
 
-    explorer.E = 40.0
+    explorer.set(E=40.0)
     assert explorer.given == "E" and explorer.scene.constants == Constants(constants.K_J, constants.K_R, 40.0)
     state = explorer.scene.state
     assert (explorer.theta, explorer.theta_dot, explorer.omega2, explorer.omega3) == (
@@ -134,19 +135,19 @@ def test_constants_and_initial_state_follow_each_other_to_the_last_digit(explore
 
 @pytest.mark.parametrize("change", [{"K_J": 6.1}, {"E": 28.1}, {"omega3": 8.8}, {"theta": 0.5, "theta_dot": -0.3}])
 def test_what_was_can_be_put_back(explorer, change):
-    explorer.param.update(**change)
+    explorer.set(**change)
     before, given = inputs_of(explorer), explorer.given
-    kept = {name: before[name] for name in Explorer.GIVEN[given]}
+    kept = {name: before[name] for name in GIVEN[given]}
     for other in ({"K_J": 3.0}, {"E": 29.0}, {"theta": 0.7}):
-        explorer.param.update(**other)
+        explorer.set(**other)
         assert inputs_of(explorer) != before
-        explorer.param.update(given=given, **kept)
+        explorer.set(given=given, **kept)
         assert inputs_of(explorer) == before
 
 
 def test_the_face_shown_changes_nothing(explorer):
     scene, scenes, before = explorer.scene, watch(explorer), inputs_of(explorer)
-    controls = Controls(scene, explorer.param.update)
+    controls = Controls(scene, explorer.set)
     controls.face = "state"
     assert explorer.scene is scene and not scenes and inputs_of(explorer) == before
 
@@ -154,7 +155,7 @@ def test_the_face_shown_changes_nothing(explorer):
 @pytest.mark.parametrize("name, value", [("theta", 4.0), ("theta_dot", float("inf"))])
 def test_a_state_that_cannot_be_is_said_beside_it(explorer, name, value):
     good = explorer.scene
-    setattr(explorer, name, value)
+    explorer.set(**{name: value})
     assert list(explorer.scene.messages) == [name] and explorer.scene.trajectory is good.trajectory
 
 

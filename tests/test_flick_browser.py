@@ -39,7 +39,7 @@ def at(page, t):
 
 def test_a_flick_spins_a_top_at_rest_and_pushes_one_that_moves(lab):
     found = lab()
-    page, start = found.page, found.lab.start
+    page, start = found.page, found.lab.explorer
     said = flicked(page, -100)
     assert said.startswith("let go at −") and said.endswith(" turns a second")
     turns = -float(SAID.search(said).group())
@@ -75,7 +75,7 @@ def test_a_flick_spins_a_top_at_rest_and_pushes_one_that_moves(lab):
 
 def test_keys_push_it_and_what_is_too_strong_is_said_and_changes_nothing(lab):
     found = lab()
-    page, start = found.page, found.lab.start
+    page, start = found.page, found.lab.explorer
     at(page, 0.5)
     canvas = page.locator(".top canvas").first
     canvas.press("Alt+Shift+ArrowUp")

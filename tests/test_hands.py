@@ -29,7 +29,7 @@ def test_a_hand_beyond_a_tieline_gets_the_motion_that_turns_there(explorer, grip
     inner, outer = explorer.scene.turning
     for theta in (inner - 0.05, outer + 0.1):
         wanted = pulled(explorer.scene, grip, theta, 1.1 * explorer.K_J, "slip")
-        explorer.param.update(**wanted)
+        explorer.set(**wanted)
         assert explorer.scene.constants.K_J == pytest.approx(wanted["K_J"], abs=0)
         found = turning_points(explorer.scene.top, explorer.scene.constants)
         assert np.abs(found - theta).min() < 1e-9
@@ -39,7 +39,7 @@ def test_a_hand_beyond_a_tieline_gets_the_motion_that_turns_there(explorer, grip
 def test_a_hand_on_another_tieline_gets_it_whole(limit, kind):
     """As drawn in Fig. 6 under that limit."""
     explorer = Explorer()
-    explorer.param.update(**pulled(explorer.scene, "tieline", 0.5, 6.0, limit))
+    explorer.set(**pulled(explorer.scene, "tieline", 0.5, 6.0, limit))
     plane = explorer.scene.plane
     [row] = np.flatnonzero(plane.K_J == 6.0)
     tielines = getattr(plane, kind)
@@ -48,7 +48,7 @@ def test_a_hand_on_another_tieline_gets_it_whole(limit, kind):
 
 def test_a_hand_that_pulls_the_tieline_keeps_its_share():
     explorer = Explorer()
-    explorer.param.update(**pulled(explorer.scene, "line", 0.5, 6.0, "slip"))
+    explorer.set(**pulled(explorer.scene, "line", 0.5, 6.0, "slip"))
     assert explorer.K_J == 6.0 and explorer.scene.share == 0.9
 
 
@@ -111,9 +111,9 @@ def test_the_body_on_the_bench_is_the_scenes():
     builder = builder_of(explorer)
     shape = next(preset.shape for preset in PRESETS if preset.name == "Top S")
     top = shape.top
-    explorer.param.update(shape=shape, a=top.a, I1=top.I1, I3=top.I3)
+    explorer.set(shape=shape, a=top.a, I1=top.I1, I3=top.I3)
     assert builder.draft.shape is shape and builder.draft.name == "Top S" and explorer.scene.shape is shape
-    explorer.a = 0.1
+    explorer.set(a=0.1)
     assert builder.draft.shape is shape and explorer.scene.shape is None
     builder.set("R", -1.0)
     assert builder.draft.messages and builder.draft.shape is shape
@@ -129,7 +129,7 @@ def test_edits_that_wait_for_their_turn_are_all_made():
     builder.set("l", 0.010)
     builder.set("r", 0.002)
     assert builder.draft.shape is explorer.shape
-    explorer.param.update(**wanted)
+    explorer.set(**wanted)
     assert (builder.draft.shape.l, builder.draft.shape.r) == (0.010, 0.002)
 
 

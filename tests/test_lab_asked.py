@@ -35,7 +35,7 @@ def test_before_somebody_looks_nothing_is_computed(monkeypatch):
     monkeypatch.setattr("app.model.lab.lab.scene_of", None)
     lab = Lab()
     lab.ask(spin=20.0)
-    assert lab.scene is None and lab.start.spin == 20.0
+    assert lab.scene is None and lab.explorer.spin == 20.0
 
 
 @pytest.mark.parametrize(("name", "value", "says"), [
@@ -63,7 +63,7 @@ def test_what_another_control_refuses_stays_there_until_it_is_changed_or_the_lab
     explorer = Explorer(given=given)
     lab = lab_of(explorer)
     scene, good = lab.scene, explorer.I3
-    explorer.I3 = 2.0
+    explorer.set(I3=2.0)
     assert explorer.I3 == 2.0 and "I3" in explorer.scene.messages and lab.scene is scene
     lab.ask(table="ice")
     explorer.settle()
@@ -79,23 +79,23 @@ def test_the_nearest_value_that_can_be_is_offered_and_is_taken(lab, name, value,
     lab.ask(**{name: value})
     assert lab.nearest == {name: pytest.approx(near)}
     lab.ask(**lab.nearest)
-    assert getattr(lab.start, name) == pytest.approx(near) and not lab.scene.messages and not lab.nearest
+    assert getattr(lab.explorer, name) == pytest.approx(near) and not lab.scene.messages and not lab.nearest
 
 
 @pytest.mark.parametrize(("name", "value"), [("tilt", 185.0), ("spin", 1e9), ("mu", -1.0), ("patch", np.inf)])
 def test_a_link_of_what_nobody_can_show_leaves_all_as_it_was(lab, name, value):
     before = lab.inputs
-    lab.start.param.update(**{name: value})
+    lab.explorer.set(**{name: value})
     assert [*lab.scene.messages] == [name] and lab.inputs == before
 
 
 @pytest.mark.parametrize(("name", "value"), [("spin", 150.0), ("spin", -2000.0), ("mu", 2.0), ("patch", 8.0)])
 def test_what_research_has_set_is_kept_and_shown_also_past_what_a_hand_can_set_here(lab, name, value):
     assert not LIMITS[name][0] <= value <= LIMITS[name][1]
-    lab.start.param.update(**{name: value})
-    assert getattr(lab.start, name) == getattr(lab.scene.start, name) == value and not lab.scene.messages
+    lab.explorer.set(**{name: value})
+    assert getattr(lab.explorer, name) == getattr(lab.scene.start, name) == value and not lab.scene.messages
     motion, spins = lab.scene.motions["ordinary"], TOYS[TOY].shape.scales.angular_velocity / (2 * np.pi)
-    assert motion.trajectory.omega[0, 2] * spins == pytest.approx(lab.start.spin)
+    assert motion.trajectory.omega[0, 2] * spins == pytest.approx(lab.explorer.spin)
     assert motion.curves[-1, 0] > 0.05 and not lab.scene.refused
     lab.ask(tilt=8.0)  # and everything else is unchanged
     assert getattr(lab.scene.start, name) == value
@@ -125,7 +125,7 @@ def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):
     lab.ask(toy="Disc on a peg", tilt=120.0)
     assert lab.scene.messages["tilt"].startswith("At 120° a part of this body would be below the table.")
     assert lab.nearest == {"tilt": 90.0} and "90° or less" in lab.scene.messages["tilt"]
-    assert (lab.scene.toy, lab.start.tilt) == ("Disc on a peg", TILT)
+    assert (lab.scene.toy, lab.explorer.tilt) == ("Disc on a peg", TILT)
     lab.ask(tilt=80.0)
     assert lab.scene.start.tilt == 80 and not lab.scene.messages
     lab.ask(tilt=120.0)
@@ -169,7 +169,7 @@ def test_an_older_run_never_takes_the_place_of_the_arrival_that_was_asked_for_si
         lab.ask(spin=spin)
     while lab.busy:
         posted.get(timeout=60)()
-    assert lab.scene.start.spin == lab.start.spin == SPIN
+    assert lab.scene.start.spin == lab.explorer.spin == SPIN
 
 
 def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):

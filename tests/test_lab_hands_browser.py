@@ -62,7 +62,7 @@ def test_what_is_typed_or_selected_stays_while_answers_come(lab):
     tilt.fill("7,2")
     slid(page, "spin", 29)
     page.get_by_text("→ 29.0 rev/s").first.wait_for()
-    assert found.lab.start.spin == 29 and tilt.input_value() == "7,2"
+    assert found.lab.explorer.spin == 29 and tilt.input_value() == "7,2"
     put(page, "Tilt, in degrees", "half")
     alert = page.get_by_role("alert").filter(has_text="half")
     alert.filter(has_text="half is not a number").wait_for()
@@ -78,7 +78,7 @@ def test_what_is_typed_or_selected_stays_while_answers_come(lab):
 
 def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(lab):
     found = lab()
-    page, start = found.page, found.lab.start
+    page, start = found.page, found.lab.explorer
     page.get_by_role("slider", name="Time").press("Home")
     handle, field = page.get_by_role("slider", name="Tilt of the axis at the start"), entry(page, "Tilt, in degrees")
     page.wait_for_function(f"{TOPS}[0].quaternion[1] == 0 && {TOPS}[0].quaternion[2] == 0")
@@ -115,19 +115,19 @@ def test_spin_it_is_the_stronger_the_longer_it_is_held_and_a_slider_asks_at_ever
     found = lab()
     page, spin = found.page, entry(found.page, "Spin, in turns a second")
     put(page, "Spin, in turns a second", 30)
-    found.until(lambda: found.lab.start.spin == 30)
+    found.until(lambda: found.lab.explorer.spin == 30)
     before, slider = line(page), page.locator("#lab-spin")
     for _ in range(12):
         slider.press("ArrowLeft")
     assert spin.input_value() == "28.8"
-    found.until(lambda: found.lab.start.spin == 28.8)
+    found.until(lambda: found.lab.explorer.spin == 28.8)
     page.wait_for_function("([line, before]) => line.getAttribute('points') != before",
                            arg=[page.locator(".strip .rest").first.element_handle(), before])  # fmt: skip
     page.get_by_role("button", name="Spin it").hover()
     page.mouse.down()
     page.get_by_role("button", name="50 rev/s").wait_for()
     page.mouse.up()
-    found.until(lambda: found.lab.start.spin == 50)
+    found.until(lambda: found.lab.explorer.spin == 50)
     page.get_by_role("button", name="Pause").wait_for()
 
 
@@ -140,7 +140,7 @@ def test_the_run_before_stays_pale_until_it_is_dismissed(lab):
     for picture in (".strip", ".answer"):
         expect(page.locator(f"{picture} .then")).to_have_count(1)
     page.get_by_role("button", name="Go back to before").click()
-    found.until(lambda: round(found.lab.start.spin, 1) == 28.6)
+    found.until(lambda: round(found.lab.explorer.spin, 1) == 28.6)
     expect(page.locator(".strip .then")).to_have_count(0)
     put(page, "Spin, in turns a second", 30)
     page.get_by_role("button", name="Forget the run before").click()

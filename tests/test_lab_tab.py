@@ -8,7 +8,7 @@ import pytest
 from app.model.arrival import TILT
 from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
-from app.model.start import Start, arrives
+from app.model.start import arrives
 from app.tabs.lab.lab import SLIDERS, LabTab, begin, spelled
 from app.text import speaking
 from tippe_core import PRESETS
@@ -42,7 +42,7 @@ def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
     monkeypatch.setattr("app.widgets.rest.after", lambda seconds, act: waits.append(act))
     monkeypatch.setattr("app.widgets.rest.REST", 0.0)
     lab = Lab()
-    lab.rest = lambda: rested.append(lab.start.tilt)
+    lab.rest = lambda: rested.append(lab.explorer.tilt)
     begin(lab)
     for tilt in (11.0, 12.0):
         lab.ask(tilt=tilt)
@@ -55,13 +55,13 @@ def test_a_push_too_many_is_answered_and_the_others_stay(tab):
     for count in (12, 13):
         said = wish(tab, count, "pushes", "~".join(f"{0.1 * i:.1f}_0_0_10_.01_0_0" for i in range(1, count + 1)))
     assert "up to 12 pushes" in said["messages"]["pushes"] and said["answered"] == 13
-    assert len(tab.lab.start.pushes) == 12
+    assert len(tab.lab.explorer.pushes) == 12
     assert not wish(tab, 14, "pushes", "")["messages"]
 
 
 def test_inertias_that_no_body_has_leave_what_is_shown(tab):
     before = shown(tab)
-    tab.lab.start.I3 = 2.0  # typed at the level "Research"
+    tab.lab.explorer.set(I3=2.0)  # typed at the level "Research"
     tab.show()
     assert shown(tab)["of"] == before["of"] and shown(tab)["was"] == shown(tab)["wants"] == ""
 
@@ -154,13 +154,13 @@ def test_a_refused_constant_names_the_stage_as_old_at_research_only(tab):
     """Below the steady precession there is no motion (E' of f = f' = 0), so the stage still has the one before."""
     rolling = Explorer()
     possible = rolling.scene
-    rolling.later(E=possible.marks.steady - 1, given="E")
+    rolling.set(solve=False, E=possible.marks.steady - 1, given="E")
     rolling.settle()
     tab.follow(rolling.scene)
     assert shown(tab)["old"] == ""
     tab.view.level = "research"
     assert shown(tab)["old"] == f"energy {possible.constants.E:.6g}"
-    rolling.later(E=possible.constants.E, given="E")
+    rolling.set(solve=False, E=possible.constants.E, given="E")
     rolling.settle()
     tab.follow(rolling.scene)
     assert shown(tab)["old"] == ""
@@ -179,7 +179,7 @@ def test_what_a_page_never_sends_changes_nothing(tab, asked):
 
 def test_a_slider_has_the_start_of_the_arrival_within_it():
     for name, (low, high, step, _) in SLIDERS.items():
-        assert low < getattr(Start(**arrives()).setup, name) < high and step < high - low
+        assert low < getattr(Explorer(**arrives()).setup, name) < high and step < high - low
 
 
 def test_numbers_are_written_as_the_language_writes_them():

@@ -26,7 +26,7 @@ def answered(name, top=PAPER, **changed):
     step = lesson.OF_NAME[name]
     explorer = Explorer(a=top.a, I1=top.I1, I3=top.I3)
     if step.inputs:
-        explorer.param.update(**step.inputs(top) | changed)
+        explorer.set(**step.inputs(top) | changed)
     return step.answer(explorer.scene)
 
 

@@ -7,7 +7,7 @@ from links import in_effect, known, met_links, opened
 from met import OF_LAW, SHOWN, opens
 
 from app.model.maps.maps import COLOURS_BY, LAWS, QUANTITIES
-from app.model.start import TABLES, Start
+from app.model.start import GIVEN, TABLES
 from app.state.names import LEVEL, LEVELS, NAMES, ROOMS, SECRET, SECTIONS, STEPS, VERSION_NAME, VOTE
 from app.text import LANGUAGES
 from tippe_core.bodies.shapes import KINDS
@@ -80,7 +80,7 @@ def test_every_choice_was_met():
     learn, maps = ("open", "Learn"), ("open", "MapChoice")
     assert every("room") == {*ROOMS, "vote"} and every("level") == {*LEVELS} and every("table") == {*TABLES}
     assert every("language") == {*LANGUAGES} and every("body", "kind") == {*KINDS}
-    assert every("start", "given") == {*Start.GIVEN} and every("friction", "law") == {*OF_LAW}
+    assert every("start", "given") == {*GIVEN} and every("friction", "law") == {*OF_LAW}
     assert every("run", "landing") == {"stop", "plastic"} and every("run", "stem") == {True, False}
     assert every("figures", "part") == {"True", "False", "paper"} and every("figures", "limit") == {"lift-off", "slip"}
     assert every("look", "dark") == every("look", "large") == {True, False}

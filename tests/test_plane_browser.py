@@ -141,7 +141,7 @@ def test_an_old_picture_is_pale_and_says_of_what_it_is(figure):
     section = found.page.locator("section.plane")
     assert "old" not in section.get_attribute("class")
     explorer = Explorer()
-    explorer.K_J = 1e99
+    explorer.set(K_J=1e99)
     found.view.show_selected(explorer.scene)
     found.send()
     found.page.get_by_text("Old picture: KJ = 7, KR = 10, E = 27.9804").wait_for()

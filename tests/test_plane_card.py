@@ -15,7 +15,7 @@ from tippe_core import Constants, Top, roll
 def card():
     """A PlaneCard that sends requests to an Explorer, and shows its scenes when nothing is dragged."""
     explorer, slid = Explorer(), []
-    card = PlaneCard(lambda **inputs: explorer.param.update(**inputs), lambda: slid.append("slips"))
+    card = PlaneCard(lambda **inputs: explorer.set(**inputs), lambda: slid.append("slips"))
     card.explorer, card.slid = explorer, slid
 
     def show(scene):
@@ -39,7 +39,7 @@ def rows(values, width, kind="<f4"):
 
 def test_all_tilts_are_shown_and_the_papers_own_by_one_switch(card):
     assert state(card)["theta_range"] == [0, np.pi]
-    card.explorer.upper = "paper"
+    card.explorer.set(upper="paper")
     assert state(card)["theta_range"] == [0, pytest.approx(1.03 * 1.6943, abs=1e-3)]
 
 
@@ -58,7 +58,7 @@ def test_the_limits_arrive_as_they_are(card):
 
 @pytest.mark.parametrize("inputs", [{}, {"energy": 1e-9}, {"K_J": 0.1, "K_R": 0.1}, {"K_R": 300.0, "K_J": 100.0}])
 def test_the_bead_has_one_nutation_of_the_motion(card, inputs):
-    card.explorer.param.update(**inputs)
+    card.explorer.set(**inputs)
     scene = card.explorer.scene
     t, theta = rows(card.plane.motion, 2)
     period = state(card)["period"]
@@ -93,7 +93,7 @@ def test_the_path_leaves_the_tieline_by_its_end_and_is_that_motions_alone(card):
 
 def test_where_it_would_slip_there_is_a_road(card):
     assert state(card)["roads"] == []
-    card.explorer.energy = 1.5
+    card.explorer.set(energy=1.5)
     assert state(card)["roads"] == ["slip"]
     card.plane.pressed = [1, "slip"]
     assert card.slid == ["slips"]
@@ -108,7 +108,7 @@ def test_what_no_button_sends_is_passed_over(card, sent):
 
 def test_a_toy_that_was_gripped_is_shown_from_near_and_one_press_shows_the_papers_top(card):
     assert not state(card)["near"] and "paper" not in state(card)["roads"]
-    card.explorer.param.update(**arrives())
+    card.explorer.set(**arrives())
     said = state(card)
     assert np.degrees([said["inner"], said["outer"]]) == pytest.approx((1.2, 5.7), abs=0.05)
     assert said["near"] and "paper" in said["roads"]
@@ -119,8 +119,8 @@ def test_a_toy_that_was_gripped_is_shown_from_near_and_one_press_shows_the_paper
 
 def test_a_picture_of_before_is_named_while_a_value_is_refused(card):
     assert state(card)["old"] is None
-    card.explorer.K_J = 1e99
+    card.explorer.set(K_J=1e99)
     assert card.explorer.scene.messages and state(card)["old"] == ["7", "10", "27.9804"]
     assert state(card)["K_J"] == 7 and card.plane.path
-    card.explorer.K_J = 6.5
+    card.explorer.set(K_J=6.5)
     assert state(card)["old"] is None

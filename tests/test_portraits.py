@@ -13,7 +13,7 @@ from tippe_core.paper.curve import f
 @pytest.fixture(params=[2.0, 7.0], ids="K_J={}".format)
 def scene(request):
     explorer = Explorer()
-    explorer.K_J = request.param
+    explorer.set(K_J=request.param)
     return explorer.scene
 
 

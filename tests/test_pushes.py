@@ -8,13 +8,14 @@ import pytest
 from doubles import lab_of
 from scipy.spatial.transform import Rotation
 
+from app.model.explorer import Explorer
 from app.model.keeps import KINDS, keeps
 from app.model.lab.lab import scene_of
 from app.model.life import life_of
 from app.model.pushes import state_after
 from app.model.run import computed, motion_on, whole_on
 from app.model.setup import Push, start_of
-from app.model.start import Start, arrives
+from app.model.start import arrives
 from app.model.story import story
 from app.server.messages import CHANGES
 from app.share.saved_runs import Shown, caption, run_csv, run_python
@@ -168,13 +169,13 @@ def test_a_link_holds_it_and_undo_takes_it_away():
     keep = kept(explorer)
     assert keep.query == f"?v=4&push={TEXT}"
     keep.commit()
-    explorer.pushes = ()
+    explorer.set(pushes=())
     keep.commit()
     keep.undo()
     assert explorer.pushes == (SOFT, LATER)
-    explorer.later(table="ice")
+    explorer.set(solve=False, table="ice")
     assert explorer.pushes  # it is the same motion on another table
-    explorer.later(mu=0.4)
+    explorer.set(solve=False, mu=0.4)
     assert explorer.pushes == ()  # of another motion
     keep.commit()
     keep.undo()
@@ -204,20 +205,20 @@ def test_what_a_browser_may_send_of_them_is_bounded():
     (Push(2.0, (0.0, 0.0, -60.0), (0.1, 0.0, 0.0)), "60 mm from the middle of the ball, and the top reaches"),
 ])  # fmt: skip
 def test_a_push_that_cannot_be_says_what_is_possible_and_all_else_stays(push, says):
-    lab = lab_of(Start(**arrives()))
+    lab = lab_of(Explorer(**arrives()))
     lab.ask(pushes=(LATER,))
     scene = lab.scene
     assert scene.start.pushes == (LATER,)
     lab.ask(pushes=(push,))
-    assert says in lab.scene.messages["pushes"] and lab.start.pushes == (LATER,)
+    assert says in lab.scene.messages["pushes"] and lab.explorer.pushes == (LATER,)
     assert lab.scene.motions["ordinary"] is scene.motions["ordinary"]
     lab.ask(pushes=())
     assert not lab.scene.messages and not lab.scene.start.pushes
 
 
 def test_after_its_end_a_run_cannot_be_pushed():
-    lab = lab_of(Start(**arrives() | {"table": "rough", "spin": 10.0, "tilt": 100.0}))
+    lab = lab_of(Explorer(**arrives() | {"table": "rough", "spin": 10.0, "tilt": 100.0}))
     end, late = lab.scene.motions["rough"].ended_at, Push(0.5, (0.0, 0.0, 0.0), (0.5, 0.0, 0.0))
     assert end < late.t
     lab.ask(pushes=(late,))
-    assert lab.scene.messages["pushes"].startswith(f"This run goes on up to {end:.2f} s") and not lab.start.pushes
+    assert lab.scene.messages["pushes"].startswith(f"This run goes on up to {end:.2f} s") and not lab.explorer.pushes

@@ -81,7 +81,7 @@ OF_THE_LAB = {"body", "a", "I1", "I3", *BY, "spin", "tilt", "slip", "mu_k", "pat
                          ids=lambda texts: link(**texts).removeprefix(link()[:4]))  # fmt: skip
 def test_the_lab_has_a_scene(texts):
     explorer, said = of_link(texts | {"table": "rough"})
-    lab = Lab(start=explorer)
+    lab = Lab(explorer=explorer)
     lab.show()
     scene = lab.scene
     assert scene is not None
@@ -94,7 +94,7 @@ def test_the_lab_has_a_scene(texts):
 def test_a_top_that_no_body_has_is_shown():
     """An ordinary top, whose peg is a ball far below G."""
     explorer = Explorer(given="hand", a=-1.5)
-    lab = Lab(start=explorer)
+    lab = Lab(explorer=explorer)
     lab.show()
     assert lab.scene.toy == Top(-1.5, 0.399, 0.408) and not lab.scene.messages and lab.scene.motions["ordinary"]
     tab = json.loads(LabTab(lab, lambda: None).view.state)
@@ -111,7 +111,7 @@ MUJOCO = {"body": "BareSphere_.02_.0554745694_.271579_.573941_.578216", "spin": 
 def test_sliding_friction_above_static_friction_is_said_and_the_rest_of_the_link_is_shown(language):
     with speaking(language):
         explorer, said = of_link(MUJOCO | {"table": "ordinary"})
-        lab = Lab(start=explorer)
+        lab = Lab(explorer=explorer)
         lab.show()
         assert not said and "mu_s" in lab.scene.messages and lab.nearest == {"mu_s": 1.0}
         start = lab.scene.start
@@ -124,7 +124,7 @@ def test_sliding_friction_above_static_friction_is_said_and_the_rest_of_the_link
 
 def test_the_nearest_friction_is_the_largest_that_is_possible():
     explorer, _ = of_link({"law": "smoothed", "mu_k": "50", "spin": "21"})
-    lab = Lab(start=explorer)
+    lab = Lab(explorer=explorer)
     lab.show()
     assert 0 < strongest_friction(explorer.scene.top) - lab.nearest["mu"] < 0.01
     assert lab.scene.start.mu == lab.nearest["mu"] and lab.scene.start.spin == 21.0 and "mu" in lab.scene.messages
@@ -132,7 +132,7 @@ def test_the_nearest_friction_is_the_largest_that_is_possible():
 
 def test_the_lab_has_the_refused_values_of_a_link_and_the_nearest():
     explorer, _ = of_link({"mu_k": "-1", "patch": "-2"})
-    lab = Lab(start=explorer)
+    lab = Lab(explorer=explorer)
     lab.show()
     assert lab.refused == {"mu": -1.0, "patch": -2.0} and lab.refused.keys() == lab.scene.messages.keys()
     lab.ask(**lab.nearest)

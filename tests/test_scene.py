@@ -89,7 +89,7 @@ def test_fig_5_ends_at_the_papers_point_P(explorer):
     ],
 )
 def test_the_numbers_are_tippe_cores(explorer, inputs):
-    explorer.param.update(**inputs)
+    explorer.set(**inputs)
     scene = explorer.scene
     assert not scene.messages
     slip = limit_energy(scene.top, explorer.K_J, explorer.K_R, explorer.mu_s)
@@ -119,7 +119,7 @@ def test_vectors_along_the_axes_of_space(explorer):
 
 
 def test_a_uniform_ball_is_limited_by_nothing(explorer):
-    explorer.param.update(a=0.0, I1=0.4, I3=0.4)
+    explorer.set(a=0.0, I1=0.4, I3=0.4)
     assert not explorer.scene.messages
     assert any("Nothing limits" in note for note in explorer.scene.notes)
 
@@ -213,7 +213,7 @@ def test_what_touches_beside_the_ball_has_its_name(shape, part):
 
 def test_a_top_that_rocks_through_upright_has_its_rosette_there(explorer):
     """Without spin: from upright to one side and back, then to the other, half a turn about the point below."""
-    explorer.param.update(K_J=0.0, K_R=0.0, E=0.05)
+    explorer.set(K_J=0.0, K_R=0.0, E=0.05)
     assert not explorer.scene.messages
     farthest = explorer.scene.turning[1]  # so far it rolls, in R
     assert explorer.scene.rosette == pytest.approx((0.0, 0.0, 0.0, farthest), abs=1e-12)
@@ -221,7 +221,7 @@ def test_a_top_that_rocks_through_upright_has_its_rosette_there(explorer):
 
 def test_at_the_limit_itself_the_top_still_rolls(explorer):
     for K_J in (0.0, 3.0, 6.0, 7.0, 8.0):
-        explorer.param.update(K_J=K_J, energy=1.0)
+        explorer.set(K_J=K_J, energy=1.0)
         assert explorer.scene.regime.max() == ROLLS
 
 
@@ -239,7 +239,7 @@ def test_levels_and_potential_are_of_the_same_well(explorer):
 
 def test_the_track_stays_between_two_circles(explorer):
     for K_J in (2.0, 7.0):
-        explorer.K_J = K_J
+        explorer.set(K_J=K_J)
         x, y, nearest, farthest = explorer.scene.rosette
         away = np.hypot(*(explorer.scene.trajectory.contact - (x, y)).T)
         # The circles are touched between two frames.

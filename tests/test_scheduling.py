@@ -103,7 +103,7 @@ def test_a_top_without_spin_has_a_plane_all_the_same():
 def test_the_curve_of_the_energy_goes_past_both_turning_points(explorer):
     """Also where they are one, in a steady precession."""
     for share in (0.0, 1.0):
-        explorer.energy = share
+        explorer.set(energy=share)
         theta, least = explorer.scene.potential
         inner, outer = explorer.scene.turning
         assert theta[0] < inner - 0.02 and outer + 0.02 < theta[-1]

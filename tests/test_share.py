@@ -123,7 +123,7 @@ def test_a_lab_whose_run_is_under_way_is_not_disturbed_by_how_its_start_rolls(op
     lab.ask(spin=12.0)
     lab.rest()
     assert isinstance(lab, Lab) and lab.rests
-    lab.start.settle()
+    lab.explorer.settle()
     assert lab.rests
 
 

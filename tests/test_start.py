@@ -17,7 +17,7 @@ from app.model.lab.lab import Lab
 from app.model.lesson.lesson import NAMES as STEP_NAMES
 from app.model.runs import Runs
 from app.model.setup import LAWS, TOYS
-from app.model.start import TABLES, Start, arrives, of_toy
+from app.model.start import DEFAULTS, GIVEN, TABLES, arrives, of_toy
 from app.page import page
 from app.page.session import Session
 from app.state.names import LEVELS, ROOMS, ROWS, SECTIONS
@@ -36,7 +36,7 @@ def views():
 
 def lab_of(explorer):
     """A visible Lab; the ends for all spins are not needed here."""
-    lab = Lab(start=explorer)
+    lab = Lab(explorer=explorer)
     lab.rest = lambda: None
     lab.show()
     return lab
@@ -54,7 +54,7 @@ def test_no_input_is_kept_twice():
     assert {*Lab.param} <= {"name", "busy", "scene", "ends"}
     assert {row.owner for row in ROWS}.isdisjoint({"Lab", "Start"})
     start = {row.parameter for row in ROWS if row.owner == "Explorer"}
-    assert {*Start.param} - {"name"} <= start
+    assert {*DEFAULTS} - {"motion"} == start
     others = {row.parameter for row in ROWS if row.owner != "Explorer"}
     assert start.isdisjoint(others)
 
@@ -69,21 +69,20 @@ def test_no_input_is_kept_twice():
     {"given": "state", "theta": 0.4, "theta_dot": 0.1, "omega2": -1.0, "omega3": 8.0}])  # fmt: skip
 def test_rough_ordinary_rough_comes_back_to_the_last_digit(toy, given):
     lab = lab_of(Explorer(**arrives() | of_toy(toy)))
-    explorer = lab.start
-    explorer.param.update(law="coulomb", mu=0.2, mu_s=0.3, **given)
-    asked = [name for name in Start.param if name not in ("name", "table")]
-    before, state = {name: getattr(explorer, name) for name in asked}, explorer.let_go
+    explorer = lab.explorer
+    explorer.set(law="coulomb", mu=0.2, mu_s=0.3, **given)
+    before, state = replace(explorer.start, table="rough"), explorer.let_go
     for table in ("ordinary", "rough", "ice", "three", "rough"):
         lab.ask(table=table)
         assert explorer.table == lab.scene.table == table
-        assert {name: getattr(explorer, name) for name in asked} == before
+        assert replace(explorer.start, table="rough") == before
         assert explorer.let_go == state == lab.scene.start.state
 
 
 def test_the_law_is_that_of_the_ordinary_table(views):
     for law in LAWS:
         views.ask(law=law, mu=0.2)
-        assert views.scene.motions["ordinary"].start.friction == views.start.setup.friction
+        assert views.scene.motions["ordinary"].start.friction == views.explorer.setup.friction
     views.ask(table="rough")
     views.ask(table="ordinary")
     assert views.scene.start.law == LAWS[-1]
@@ -92,7 +91,7 @@ def test_the_law_is_that_of_the_ordinary_table(views):
 def test_what_nobody_looks_at_is_not_computed(views):
     views.hide()
     scene = views.scene
-    views.start.param.update(given="hand", spin=31.0)
+    views.explorer.set(given="hand", spin=31.0)
     assert views.scene is scene
     views.show()
     assert views.scene.start.spin == 31.0
@@ -104,38 +103,38 @@ def test_what_nobody_looks_at_is_not_computed(views):
 def test_gripped_it_keeps_jelletts_constant_of_the_hand(views):
     """The impulse has no moment about the contact: the angular momentum about it, along the line to O, stays."""
     views.ask(spin=20.0, tilt=30.0)
-    views.start.settle()
+    views.explorer.settle()
     top, scales = TOYS[TOY].top, TOYS[TOY].shape.scales
     spin = 2 * np.pi * 20.0 * scales.time
     jellett = top.I3 * spin * (np.cos(np.radians(30)) - top.a)  # C_J of G at rest, spun about the axis
-    state, scene = views.start.scene.state, views.start.scene
+    state, scene = views.explorer.scene.state, views.explorer.scene
     across = top.I1 * state.omega2 * np.sin(state.theta)
     assert across + top.I3 * state.omega3 * (np.cos(state.theta) - top.a) == pytest.approx(jellett, rel=1e-12)
     assert state.theta == pytest.approx(np.radians(30)) and scene.top == top
     left = scene.trajectory.ledger.kinetic[0]
     assert scene.lost == pytest.approx(top.I3 * spin**2 / 2 - left, rel=1e-9)
     assert f"that took {scene.lost:.2g} MgR of its energy at once" in scene.notes[0]
-    views.start.param.update(given="share")
-    assert not any("gripped" in note for note in views.start.scene.notes)
+    views.explorer.set(given="share")
+    assert not any("gripped" in note for note in views.explorer.scene.notes)
 
 
 def test_the_hand_and_what_rolls_are_two_faces_of_one_start(views):
     views.ask(spin=20.0, tilt=30.0)
-    views.start.settle()
-    before = constants(views.start)
-    views.start.given = "state"  # given by the rolling motion: the same motion
-    assert constants(views.start) == pytest.approx(before, rel=1e-14) and views.start.scene.lost == 0
-    assert views.start.tilt == pytest.approx(30.0) and abs(views.start.spin) < 20.0
+    views.explorer.settle()
+    before = constants(views.explorer)
+    views.explorer.set(given="state")  # given by the rolling motion: the same motion
+    assert constants(views.explorer) == pytest.approx(before, rel=1e-14) and views.explorer.scene.lost == 0
+    assert views.explorer.tilt == pytest.approx(30.0) and abs(views.explorer.spin) < 20.0
     views.ask(spin=21.0)
-    assert views.start.given == "hand" and views.start.tilt == pytest.approx(30.0)
+    assert views.explorer.given == "hand" and views.explorer.tilt == pytest.approx(30.0)
 
 
 def test_a_motion_given_by_its_constants_rolls_on_every_table(views):
-    views.start.param.update(**of_toy(PAPER), given="share", K_J=7.0, K_R=10.0, energy=0.9, table="three")
+    views.explorer.set(**of_toy(PAPER), given="share", K_J=7.0, K_R=10.0, energy=0.9, table="three")
     motions = views.scene.motions
     assert motions["rough"].lost == 0
     assert motions["rough"].trajectory.jellett[0] / 0.399 == pytest.approx(7.0)
-    assert {motion.start.state for motion in motions.values()} == {views.start.let_go}
+    assert {motion.start.state for motion in motions.values()} == {views.explorer.let_go}
     assert np.hypot(*motions["ordinary"].trajectory.slip[0]) == pytest.approx(0, abs=1e-12)
 
 
@@ -147,16 +146,16 @@ OWN = next(preset.shape for preset in PRESETS if preset.name == "Free profile")
 @pytest.mark.parametrize("shape", [TruncatedSphere(R=0.02, c=0.01, l=0.024, r=0.004, M=0.02),
                                    replace(OWN, density=800.0)])  # fmt: skip
 def test_a_body_of_ones_own_goes_along(views, shape):
-    views.start.param.update(**of_toy(shape))
+    views.explorer.set(**of_toy(shape))
     assert views.scene.toy == shape
     assert views.scene.start.top == shape.top and not views.scene.messages
 
 
 def test_inertias_that_are_no_bodys_are_a_sphere_of_these(views):
-    views.start.param.update(**of_toy(PAPER))
-    assert views.start.toy == PAPER
-    views.start.a = 0.11
-    assert isinstance(views.start.toy, BareSphere) and views.start.toy.top == Top(0.11, 0.399, 0.408)
+    views.explorer.set(**of_toy(PAPER))
+    assert views.explorer.toy == PAPER
+    views.explorer.set(a=0.11)
+    assert isinstance(views.explorer.toy, BareSphere) and views.explorer.toy.top == Top(0.11, 0.399, 0.408)
 
 
 # ---- links of the first version, in which each view had its own ----
@@ -221,7 +220,7 @@ def shown(session, seen):
     """The numbers that determine which motion is shown."""
     explorer = session.explorer
     explorer.settle()
-    names = [name for name in Start.param if name not in ("name", *Start.GIVEN["hand"])]
+    names = [name for name in DEFAULTS if name not in ("motion", "upper", "limit", *GIVEN["hand"])]
     return {
         "room": seen.room, **{name: getattr(explorer, name) for name in names}, "let_go": astuple(explorer.let_go),
         "rolls": explorer.scene.trajectory.theta.tolist(), "toy": explorer.toy,
@@ -230,7 +229,7 @@ def shown(session, seen):
 
 def start_of_page(session):
     """Everything that a person has set."""
-    return {name: getattr(session.explorer, name) for name in Start.param if name != "name"}
+    return session.explorer.start
 
 
 @pytest.mark.parametrize("table", TABLES)
@@ -277,9 +276,9 @@ STEPS = (
     lambda session, seen: session.lab_of.ask(spin=21.0, tilt=12.0),
     lambda session, seen: session.lab_of.ask(table="three"),
     lambda session, seen: setattr(seen, "level", "research"),
-    lambda session, seen: session.explorer.param.update(K_J=4.0),
+    lambda session, seen: session.explorer.set(K_J=4.0),
     lambda session, seen: session.lab_of.ask(table="ordinary"),
-    lambda session, seen: session.explorer.param.update(law="coulomb", mu=0.2, mu_s=0.35),
+    lambda session, seen: session.explorer.set(law="coulomb", mu=0.2, mu_s=0.35),
     lambda session, seen: setattr(seen, "level", "explore"),
     lambda session, seen: session.lab_of.ask(mu=0.25),
     lambda session, seen: session.lab_of.ask(table="rough"),

@@ -12,6 +12,7 @@ FALSE = [
     ("hollow", "spin=20.616&tilt=17.50&mu_k=0.070"),  # "from 15° to 15°": heights, in mm
     ("ball", "spin=0.813&tilt=79.81&mu_k=0.084"),  # "to and fro" of what went one way
     ("loaded", "spin=43.236&tilt=1.95&mu_k=0.341"),  # slides, and it swings
+    ("Leine", "spin=11.836&tilt=7.40&mu_k=0.062"),  # sinks, in pieces each of which does, but not together
 ]
 REFUSED = [
     ("paper", "spin=27.5&tilt=51.8"),  # "seconds = 60 is not possible"

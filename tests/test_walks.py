@@ -155,8 +155,8 @@ FOLLOW = {
     "build-a-top": {"Build.show", "Built.show"}, "learn": {"Learn.show"}, "maps": {"Maps.show"},
     "measure": {"Measure.show"},
 }  # fmt: skip
-# And what else listens to an input of the Explorer: the panel that fits the table, and where it is.
-HEARS = {"lab": {("table", "Session.lab"), ("table", "Research.__init__")}}
+# And what else listens to the start: the panel that fits the table, and where it is.
+HEARS = {"lab": {("start", "Session.lab"), ("start", "Research.__init__")}}
 
 
 def hearers(explorer):

@@ -9,118 +9,92 @@ from typing import Any
 import param
 
 from app.model.marks import LARGEST
-from app.model.region import PAPER, Upper
 from app.model.scene import LEAST_INERTIA, Scene, solve
-from app.model.start import Start, rolls
+from app.model.setup import Setup
+from app.model.start import GIVEN, USUAL, Start, rolls
 from app.text import told
 from app.together import set_together
-from tippe_core import State, Top, TopError
+from tippe_core import State, TopError
 
 
-class Explorer(Start):
-    """The controls. Several inputs set in one `param.update` cause one solve and one `scene` event; inputs on which
-    rolling does not depend cause none.
+class Explorer(param.Parameterized):
+    """The one start of a page, and how it rolls. set() alone changes it: a slider, a link, undo and a click on a map
+    all come this way. Inputs that follow from the start are read like its own: explorer.K_J of a start by hand, too.
 
-    The set of inputs that was changed last determines the motion, and the other sets follow to the last digit, so that
-    each may be changed next. To restore an earlier motion, set `given` and its inputs. A start that does not roll is
-    gripped by the table first: the constants are those of the rolling that follows.
+    A start that does not roll is gripped by the table first: the constants are those of the rolling that follows.
     """
 
-    upper: param.Selector[Upper] = param.Selector(
-        default=True, objects=[True, False, PAPER], doc="which part of the (K_J, theta) plane is shown: region.Upper"
+    # __init__ makes the first ones
+    start: param.ClassSelector[Start] = param.ClassSelector(  # type: ignore[assignment]
+        class_=Start, constant=True, doc="the start, all of which is allowed to be wrong"
     )
-    limit: param.Selector[str] = param.Selector(
-        default="lift-off", objects=["lift-off", "slip"], doc="the limit for which Fig. 5 is drawn"
-    )
-    # __init__ makes the first one
     scene: param.ClassSelector[Scene] = param.ClassSelector(  # type: ignore[assignment]
         class_=Scene, constant=True, doc="the last solution"
     )
 
-    INPUTS = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3")
-    FOLLOWS = {name for names in Start.GIVEN.values() for name in names} - {"slip"}
+    def __init__(self, **inputs: Any) -> None:
+        super().__init__(start=Start().changed(USUAL, **inputs))  # type: ignore[no-untyped-call]  # of param
+        self._waits = False
+        self._put(scene=self._solve(self.start))
 
-    def __init__(self, **inputs: object) -> None:
-        super().__init__(**inputs)
-        self._later = self._waits = False
-        others = ("slip", "given", "mu", "mu_s", "a", "I1", "I3", "shape", "upper", "limit")
-        self.param.watch(self._on_inputs, [*self.FOLLOWS, *others])
-        self._solve()
-
-    def later(self, **inputs: Any) -> None:
-        """Takes inputs of a released top; its rolling motion is solved only when it will be seen, in settle()."""
-        self._later = True
-        try:
-            self.param.update(**inputs)
-        finally:
-            self._later = False
+    def set(self, *, solve: bool = True, **inputs: Any) -> None:
+        """Changes inputs of the start: one solve and one `scene` event, and none if rolling does not depend on them.
+        solve: False where the rolling of a top let go by a hand is not seen: it is solved in settle()."""
+        before, start = self.start, self.start.changed(self.scene.inputs, **inputs)
+        scene = {}
+        if start.of_rolling != before.of_rolling:
+            self._waits = start.given == "hand" and not solve
+            scene = {} if self._waits else {"scene": self._solve(start)}
+        if scene or start != before:
+            self._put(**scene, start=start)
 
     def settle(self) -> None:
-        """Solves what later() has postponed."""
+        """Solves what set() has postponed."""
         if self._waits:
-            self._solve()
+            self._waits = False
+            self._put(scene=self._solve(self.start))
+
+    def __getattr__(self, name: str) -> Any:
+        """An input, set or as it follows from what is set; or what else the start has."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        inputs = {**self.scene.inputs, **self.start.inputs}
+        return inputs[name] if name in inputs else getattr(self.start, name)
 
     @property
     def let_go(self) -> State:
         """The State at t = 0, before any table has gripped it."""
-        return super().let_go if self.given == "hand" else rolls(self.scene.state, self.scene.top)
+        return self.start.let_go or rolls(self.scene.state, self.scene.top)
 
-    def _on_inputs(self, *events: param.parameterized.Event) -> None:
-        if self._following:
-            return
-        changed = {event.name for event in events}
-        if changed == {"mu"} and self.mu_s is not None:
-            return  # rolling depends on static friction alone
-        if "given" not in changed:
-            by = (("state", self.GIVEN["state"]), ("hand", self.GIVEN["hand"]), ("E", ("E",)),
-                  ("share", self.GIVEN["share"]))  # fmt: skip
-            given = next((given for given, names in by if changed & set(names)), self.given)
-            if given != self.given:
-                self._follow(given=given)
-        if self._later and self.given == "hand":
-            self._waits = True
-        else:
-            self._solve()
+    @property
+    def setup(self) -> Setup:
+        """All that its runs depend on; raises TopError if no top has these a, I1 and I3."""
+        return self.start.setup(rolls(self.scene.state, self.scene.top))
 
-    def _follow(self, **values: object) -> None:
-        self._following = True
+    def _put(self, **values: object) -> None:
+        with param.edit_constant(self):
+            set_together(self, **values)
+
+    def _solve(self, start: Start) -> Scene:
+        """The Scene of a start; the last one, with a message, if it does not give a motion."""
+        asked = start.inputs
+        K_J, K_R, share = (float(asked.get(name, USUAL[name])) for name in GIVEN["share"])
         try:
-            with param.edit_constant(self):
-                set_together(self, **values)
-        finally:
-            self._following = False
-
-    def _solve(self) -> None:
-        self._waits = False
-        try:
-            state = {name: getattr(self, name) for name in self.GIVEN["state"]}
-            scene = solve(
-                Top(self.a, self.I1, self.I3),
-                self.K_J,
-                self.K_R,
-                self.static,
-                self.energy,
-                self.upper,
-                self.limit,
-                self.shape,
-                E=self.E if self.given == "E" else None,
-                state=State(**state) if self.given == "state" else None,
-                let_go=super().let_go if self.given == "hand" else None,
-            )
+            scene = solve(start.top, K_J, K_R, start.static, share, start.upper, start.limit, start.shape,
+                          E=asked.get("E"), state=State(*start.motion) if start.given == "state" else None,
+                          let_go=start.let_go)  # fmt: skip
         except TopError as error:
             if self.scene is None:
                 raise
             control = {"E": "energy"}.get(error.name, error.name)
-            asked = {name: getattr(self, name) for name in self.scene.inputs} | {"mu_s": self.static}
+            asked = {**self.scene.inputs, **asked, "mu_s": start.static}
+            asked = {name: asked[name] for name in self.scene.inputs}
             near = _nearest(error, asked)
-            self._follow(scene=replace(
+            return replace(
                 self.scene, inputs=MappingProxyType(asked), messages=MappingProxyType({control: told(error)}),
-                nearest=MappingProxyType({} if near is None else {control: near})))  # fmt: skip
-            return
-        kept = {name: getattr(self, name) for name in ("given", *self.GIVEN["hand"] * (self.given == "hand"))}
-        scene = replace(scene, inputs=MappingProxyType(scene.inputs | kept))
-        names = self.FOLLOWS - set(self.GIVEN[self.given])
-        self._follow(scene=scene, **{name: scene.inputs[name] for name in names})
+                nearest=MappingProxyType({} if near is None else {control: near}))  # fmt: skip
+        motion = dict(zip(GIVEN[start.given], start.motion, strict=True))
+        return replace(scene, inputs=MappingProxyType({**scene.inputs, "given": start.given, **motion}))
 
 
 def _nearest(error: TopError, asked: dict[str, Any]) -> float | None:

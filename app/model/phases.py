@@ -294,7 +294,7 @@ def _until(span: Span, others: list[Span]) -> Span:
 def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
     """The phases, without what is left over and SHORT: beginning with the shortest, it joins the longer of its
     neighbours that are left over too; if none is, the phase before it (or after it), if it is shorter than GAP or
-    that is a passage. What only rolls or slides may swing with what joins it. Like joins like except at a cut."""
+    that is a passage. What rolls, slides or sinks may swing with what joins it. Like joins like except at a cut."""
     kept, tried = _alike(found, run.cuts), set[Phase]()
     while short := [phase for phase in kept if phase.kind in LEFT_OVER and _long(phase) < SHORT and phase not in tried]:
         phase = min(short, key=_long)
@@ -307,7 +307,7 @@ def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
             j = max(left_over, key=lambda j: _long(kept[j])) if left_over else beside[0]
             first, last = min(i, j), max(i, j)
             joins = Phase(kept[j].kind, kept[first].start, kept[last].end)
-            if joins.kind in ("rolls", "slides"):
+            if joins.kind in ("rolls", "slides") or (joins.kind == "sinks" and _goes(run, joins[1:]) > -GOES):
                 inside = (run.t >= joins.start) & (run.t <= joins.end)
                 joins = joins._replace(kind=_swings(run, run.t[inside], run.tilt[inside]))
             kept = _alike([*kept[:first], joins, *kept[last + 1 :]], run.cuts)

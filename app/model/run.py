@@ -13,17 +13,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
+from app.model.frames import in_space
 from app.model.life import Lived, life_of, lived, pushed_rows, thinned, within
-from app.model.motion import Motion, check_room, clear, for_reader, motion_of
+from app.model.motion import PUSHED, check_room, clear, for_reader, touches
 from app.model.phases import Phase, carried, phases, samples
 from app.model.pushes import in_pieces
+from app.model.regimes import ENDS, GLIDES, OF_CORE, SLIPS, WOULD_LIFT
 from app.model.setup import SECONDS, Push, Setup, start_of
 from app.text import say, told
-from tippe_core import Coulomb, State, Top, TopError, Trajectory, Viscous, glide, grip, outcome, roll, slide
+from tippe_core import (
+    Coulomb,
+    Ending,
+    State,
+    Top,
+    TopError,
+    Trajectory,
+    Viscous,
+    ending,
+    glide,
+    grip,
+    outcome,
+    roll,
+    slide,
+)
 from tippe_core.types import Array, Indices
 
 STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
 STEM = "stem", "both"
+KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
+THROWN = "stem throws it up"
 WHILE, AT_ONCE = 0.2, 1e-6  # s
 NEARLY = 1e-5  # relative: the precision of a time stored as float32
 EXTREME = "extreme"  # the code of a TopError
@@ -31,10 +49,17 @@ SHIPS = arrival.TABLE, start_of(*arrival.ARRIVAL[1:])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class TableMotion(Motion):
-    """A Motion of a start on a table, one of the names in TABLES. lost: the energy (MgR) that the grip of the rough
-    table has taken; it is part of the heat. whole: whether it goes to the end of the toy's life, unless it is cut, for
-    the reason life.LONG or life.CATCHES, "" if it is not.
+class TableMotion:
+    """The motion of a start on a table, one of the names in TABLES. trajectory: as far as it goes; ended: the event at
+    which it stopped, or ""; ending: on the ordinary table, how it ends. lost: the energy (MgR) that the grip of the
+    rough table has taken; it is part of the heat. whole: whether it goes to the end of the toy's life, unless it is
+    cut, for the reason life.LONG or life.CATCHES, "" if it is not.
+
+    t (n,) extends to the requested end: if the trajectory ends earlier, its last row is repeated there. frames: the
+    arguments of top3d.pack_frames. stretches: (start, end, one of regimes.py), in order. drift: for each of KEPT, the
+    largest difference between two instants relative to the largest value; alone: the time up to which only the sphere
+    touches, what ends that ("" if nothing), and the drift of J up to then, which only a single contact conserves; both
+    since the last push. Events have tippe_core's names, except THROWN if the stem's first touch lifts the top off.
 
     curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
     (mm), the heat so far in the same way, the spin about the top's own axis and its rotation seen from above (rev/s),
@@ -43,10 +68,36 @@ class TableMotion(Motion):
 
     start: Setup
     table: str
+    trajectory: Trajectory
+    ending: Ending | None
+    ended: str
+    t: Array
+    frames: tuple[Array | Indices, ...]
+    stretches: tuple[tuple[float, float, int], ...]
+    drift: MappingProxyType[str, float]
+    alone: tuple[float, str, float]
     lost: float
     whole: bool
     cut: str
     curves: Array
+
+    @property
+    def slip(self) -> Array:
+        """The slip speed, (n,)."""
+        return np.hypot(*self.trajectory.slip.T)
+
+    @property
+    def ledger(self) -> dict[str, Array]:
+        """Energies in MgR whose sum is the energy at the start, {name: (n,)}; the height is that above G's lowest
+        position."""
+        entries, a = self.trajectory.ledger, self.trajectory.top.a
+        return {
+            "spin": entries.spin,
+            "precession and nutation": entries.precession + entries.nutation,
+            "motion of G": entries.translation,
+            "height": entries.height - min(0.0, 2 * a),
+            "heat": entries.heat,
+        }
 
     @property
     def seconds(self) -> Array:
@@ -232,25 +283,55 @@ def watched(start: Setup, table: str, found: Lived, lost: float = 0.0, *, whole:
     """The TableMotion of the results of computed() or lived()."""
     start, moved = replace(start, seconds=found.seconds), found.moved
     end = found.seconds / start.scales.time
-    times = moved.t if end - moved.t[-1] < NEARLY * end else np.append(moved.t, end)
-    motion = motion_of(moved, start, times, table)
-    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole, cut=found.cut,
-                       curves=_curves(motion, start, lost))  # fmt: skip
+    early = end - moved.t[-1] >= NEARLY * end
+    code = np.array([OF_CORE[word] for word in moved.regime])
+    if table == "rough":
+        code[moved.force[:, 2] < 0] = WOULD_LIFT
+    elif table == "ice":
+        code[code == SLIPS] = GLIDES  # without friction
+    frames = [moved.t, moved.quaternion, moved.contact, moved.com, moved.theta, *in_space(moved), code]
+    if early:
+        frames = [np.concatenate([rows, rows[-1:]]) for rows in frames]
+        frames[0][-1], frames[-1][-2:] = end, ENDS
+    t, code = frames[0], frames[-1]
+    starts = np.flatnonzero(np.diff(code, prepend=-1))
+    stretches = zip(t[starts], np.append(t[starts[1:]], t[-1]), code[starts], strict=True)
+    since = max((at for at, event in moved.events if event == PUSHED), default=0.0)
+    last_part = moved.t >= since
+    first = next((each for each in moved.events if each[0] > since and each[1] not in ("sticks", "slips")), (t[-1], ""))
+    until, event = first
+    if event == "lifts off" and table == "ordinary" and start.edge and touches(moved, until, start):
+        event = THROWN
+    last = moved.events[-1] if early and moved.events else (t[-1], "")
+    return TableMotion(
+        start=start, table=table, trajectory=moved, lost=lost, whole=whole, cut=found.cut,
+        ending=ending(moved) if table == "ordinary" else None, ended=event if last == first else last[1], t=t,
+        frames=tuple(frames),
+        stretches=tuple((float(start), float(end), int(which)) for start, end, which in stretches),
+        drift=MappingProxyType({name: _drift(getattr(moved, field)[last_part]) for name, field in KEPT.items()}),
+        alone=(until, event, _drift(moved.jellett[last_part & (moved.t <= until)])),
+        curves=_curves(start, moved, t, code, lost),
+    )  # fmt: skip
 
 
-def _curves(motion: Motion, start: Setup, lost: float) -> Array:
-    moved, scales = motion.trajectory, start.scales
+def _drift(values: Array) -> float:
+    most = np.abs(values).max()
+    return float(np.ptp(values) / most) if most else 0.0
+
+
+def _curves(start: Setup, moved: Trajectory, t: Array, code: Indices, lost: float) -> Array:
+    scales = start.scales
     turns, millimetres = scales.angular_velocity / (2 * np.pi), 1e3 * scales.R
     spin, above = moved.omega[:, 2], moved.omega[:, 1] * np.sin(moved.theta) + moved.omega[:, 2] * np.cos(moved.theta)
     height = moved.com[:, 2]
     energy = moved.ledger.kinetic + height
     rows = np.column_stack([
         moved.t * scales.time, np.degrees(moved.theta), millimetres * height, millimetres * energy,
-        millimetres * (moved.heat + lost), turns * spin, turns * above, motion.frames[-1][: len(moved.t)],
+        millimetres * (moved.heat + lost), turns * spin, turns * above, code[: len(moved.t)],
     ])  # fmt: skip
-    if len(motion.t) > len(moved.t):  # it ended early; the last row is repeated at the end
+    if len(t) > len(moved.t):  # it ended early; the last row is repeated at the end
         rows = np.concatenate([rows, rows[-1:]])
-        rows[-1, 0], rows[-1, -1] = motion.t[-1] * scales.time, motion.frames[-1][-1]
+        rows[-1, 0], rows[-1, -1] = t[-1] * scales.time, code[-1]
     return rows[every_other(len(rows), pushed_rows(moved))].astype(np.float32)
 
 

@@ -241,7 +241,7 @@ def _scene(
     inputs = asked | {"K_J": constants.K_J, "K_R": constants.K_R, "energy": share, "E": constants.E}
     inputs |= {name: getattr(state, name) for name in STATE} | {name: getattr(top, name) for name in TOP}
     turns = float(state.omega3 * shape.scales.angular_velocity / (2 * np.pi))
-    inputs |= {"spin": turns, "tilt": float(np.degrees(state.theta))}
+    inputs |= {"spin": turns, "tilt": float(np.degrees(state.theta)), "slip": 1.0}
     return Scene(
         top=top,
         scales=shape.scales,

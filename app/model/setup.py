@@ -102,13 +102,8 @@ class Setup:
 
     @property
     def toy(self) -> Toy:
-        """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3, if there is one."""
-        if self.shape is not None:
-            return toy_of(self.shape, self.top)
-        try:
-            return BareSphere(R=self.scales.R, M=self.scales.M, a=self.top.a, I1=self.top.I1, I3=self.top.I3)
-        except TopError:
-            return self.top
+        """As of toy_of()."""
+        return toy_of(self.shape, self.top, self.scales)
 
     @cached_property
     def profile(self) -> Array:
@@ -217,6 +212,13 @@ def shape_of(toy: Toy) -> Shape:
     return TOYS[toy].shape if isinstance(toy, str) else toy
 
 
-def toy_of(shape: Shape, top: Top) -> Toy:
-    """The name in TOYS of the toy with this body and this top; if there is none, the body."""
-    return next((name for name, preset in TOYS.items() if preset.shape == shape and preset.top == top), shape)
+def toy_of(shape: Shape | None, top: Top, scales: Scales | None = None) -> Toy:
+    """The name in TOYS of the toy with this body and this top, otherwise the body; without one, a sphere of these
+    scales with these a, I1 and I3, if there is one."""
+    if shape is not None:
+        return next((name for name, preset in TOYS.items() if preset.shape == shape and preset.top == top), shape)
+    assert scales is not None
+    try:
+        return BareSphere(R=scales.R, M=scales.M, a=top.a, I1=top.I1, I3=top.I3)
+    except TopError:
+        return top

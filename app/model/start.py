@@ -1,116 +1,100 @@
-"""The start of one top: everything that a person sets, each quantity once, whatever view shows it.
+"""The start of one top: everything that a person sets, each quantity once, whatever view shows it."""
 
-The motion is given by one of the sets in GIVEN: by the spin and tilt of a hand, with G at rest unless slip says
-otherwise, or by a rolling motion. The table is the one on which it is watched; changing it does not change the start.
-"""
-
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-import param
 
 from app.model import arrival
 from app.model.bodies import fits
-from app.model.setup import LAWS, MOST_SECONDS, OF_LAW, ON, PATCH, SECONDS, TOYS, Push, Setup, Toy, by_hand, toy_of
+from app.model.region import Upper
+from app.model.setup import MOST_SECONDS, OF_LAW, ON, PATCH, SECONDS, TOYS, Push, Setup, Toy, by_hand, toy_of
 from app.model.setup import TABLES as EACH
 from tippe_core import Shape, State, Top, TopError, TruncatedSphere
 from tippe_core.paper.equations import rolling_velocity
 
+PAPERS = TruncatedSphere.paper()
 TABLES = (*EACH, "three")
 NUMBERS = tuple(dict.fromkeys(name for names in OF_LAW.values() for name in names))
+GIVEN = MappingProxyType(
+    {
+        "state": ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"),
+        "hand": ("spin", "tilt", "slip"),
+        "E": ("K_J", "K_R", "E"),
+        "share": ("K_J", "K_R", "energy"),
+    }
+)
+"""{way in which a motion is given: its inputs}. K_J and K_R: Jellett's and Routh's constant, in (g/R)^1/2 and
+(MR^2)^1/2 (g/R)^1/2; energy: 0 the steady precession, 1 the limit of friction, 2 the limit F_z = 0; E: the energy
+itself, in MgR; theta to psi: the motion at t = 0, in rad and (g/R)^1/2; spin (rev/s), tilt (degrees) and slip: of a
+start by hand, as in by_hand()."""
+USUAL = MappingProxyType(
+    {"K_J": 7.0, "K_R": 10.0, "energy": 0.9, "E": 0.0, "spin": 20.0, "tilt": 10.0, "slip": 1.0}
+    | dict.fromkeys(GIVEN["state"], 0.0)
+)
+"""{input of a motion: its default}."""
+SEEN = "table", "upper", "limit"
+"""How it is watched: another of these is not another start."""
 
 
-class Start(param.Parameterized):
-    """The start, of which each page has one. Several inputs set in one `param.update` make one new start."""
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """The start of which each page has one.
 
-    # the top
-    shape = param.ClassSelector(
-        class_=Shape, default=TruncatedSphere.paper(), allow_None=False, doc="the body; a, I1, I3 are set with it"
-    )
-    a = param.Number(0.070, doc="distance of G below the centre O of the sphere, in R")
-    I1 = param.Number(0.399, doc="moment of inertia about an axis through G perpendicular to axis 3, in MR^2")
-    I3 = param.Number(0.408, doc="moment of inertia about the axis of symmetry, in MR^2")
-    # its motion
-    given: param.Selector[str] = param.Selector(
-        default="share", objects=["share", "E", "state", "hand"], doc="which set of GIVEN determines the motion"
-    )
-    K_J = param.Number(7.0, doc="Jellett's constant, in (g/R)^1/2")
-    K_R = param.Number(10.0, doc="Routh's constant, in (MR^2)^1/2 (g/R)^1/2")
-    energy = param.Number(0.9, doc="0 the steady precession, 1 the limit of friction, 2 the limit F_z = 0")
-    E = param.Number(0.0, doc="the energy itself, in MgR")
-    theta = param.Number(0.0, doc="the tilt at t = 0, in rad")
-    theta_dot = param.Number(0.0, doc="its rate, in (g/R)^1/2")
-    omega2 = param.Number(0.0, doc="the angular velocity about 2' at t = 0, in (g/R)^1/2")
-    omega3 = param.Number(0.0, doc="the angular velocity about the axis of symmetry at t = 0, in (g/R)^1/2")
-    phi = param.Number(0.0, doc="the azimuth of 1' at t = 0, in rad")
-    psi = param.Number(0.0, doc="the angle of rotation about the axis of symmetry at t = 0, in rad")
-    spin = param.Number(20.0, doc="of a start by hand, about its axis, rev/s")
-    tilt = param.Number(10.0, doc="of a start by hand, degrees")
-    slip = param.Number(1.0, doc="of a start by hand, relative to that with G at rest")
-    # its table
-    table: param.Selector[str] = param.Selector(
-        default="ordinary", objects=list(TABLES), doc="the table on which it is watched"
-    )
-    mu_s = param.Number(
-        0.5, allow_None=True, doc="coefficient of static friction; None: the same as that of sliding friction"
-    )
-    mu = param.Number(0.3, doc="coefficient of sliding friction")
-    law: param.Selector[str] = param.Selector(
-        default="smoothed", objects=list(LAWS), doc="the friction law of the ordinary table"
-    )
-    gamma = param.Number(0.3, doc="coefficient of viscous friction, in (gR)^-1/2")
-    eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its limit, in (gR)^1/2")
-    patch = param.Number(PATCH, doc="radius of the patch of a real contact, mm")
-    # a run on it
-    landing: param.Selector[str] = param.Selector(
-        default="plastic", objects=["stop", "plastic"], doc="what happens after it lifts off"
-    )
-    stem = param.Boolean(True, doc="whether the stem can touch the table")
-    pushes: param.Parameter[tuple[Push, ...]] = param.Parameter(
-        default=(), doc="what pushes it on its way, in the order of their times; a start that is changed has none"
-    )
+    shape: the body; a, I1, I3: those of the top, set with it. given: one of GIVEN; motion: its inputs, in that order:
+    that of a hand with G at rest unless slip says otherwise, or a rolling motion. mu, mu_s: coefficients of sliding and
+    of static friction; None: the same. law: that of the ordinary table, with gamma, eps, patch as in a Setup. landing:
+    what happens after it lifts off, "stop" or "plastic"; stem: whether it can touch the table. pushes: in the order of
+    their times. table: the one on which it is watched; upper, limit: which part of the (K_J, theta) plane is shown, and
+    for which limit, "lift-off" or "slip", Fig. 5 is drawn.
+    """
 
-    GIVEN = MappingProxyType(
-        {
-            "share": ("K_J", "K_R", "energy"),
-            "E": ("K_J", "K_R", "E"),
-            "state": ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"),
-            "hand": ("spin", "tilt", "slip"),
-        }
-    )
-
-    _following = False  # whether inputs are being set that follow from others
-
-    def __init__(self, **inputs: Any) -> None:
-        super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
-        of_motion = {name for names in self.GIVEN.values() for name in names} | {"given", "shape", "a", "I1", "I3"}
-        self.param.watch(self._anew, [*of_motion, "law", *NUMBERS, "landing", "stem", "pushes"])
-
-    def _anew(self, *events: param.parameterized.Event) -> None:
-        """A push belongs to one motion: it is forgotten when that is changed, unless the change itself sets it."""
-        if self.pushes and not self._following and all(event.name != "pushes" for event in events):
-            self.pushes = ()
+    shape: Shape = PAPERS
+    a: float = 0.070
+    I1: float = 0.399
+    I3: float = 0.408
+    given: str = "share"
+    motion: tuple[float, ...] = tuple(USUAL[name] for name in GIVEN["share"])
+    mu_s: float | None = 0.5
+    mu: float = 0.3
+    law: str = "smoothed"
+    gamma: float = 0.3
+    eps: float = 0.1
+    patch: float = PATCH
+    landing: str = "plastic"
+    stem: bool = True
+    pushes: tuple[Push, ...] = ()
+    table: str = "ordinary"
+    upper: Upper = True
+    limit: str = "lift-off"
 
     @property
-    def set(self) -> dict[str, Any]:
-        """{input: value} of the top, of the way its motion is given, and of the table: enough to restore it."""
-        body, law = ("shape", "a", "I1", "I3"), ("law", *OF_LAW[self.law])
-        names = (*body, "given", *self.GIVEN[self.given], "table", *law, "pushes")
-        return {name: getattr(self, name) for name in names}
-
-    def later(self, **inputs: Any) -> None:
-        """Sets inputs, like `param.update`."""
-        self.param.update(**inputs)
+    def inputs(self) -> dict[str, Any]:
+        """{input: value}, enough to set it again."""
+        said = {name: value for name, value in vars(self).items() if name != "motion"}
+        return said | dict(zip(GIVEN[self.given], self.motion, strict=True))
 
     @property
-    def toy(self) -> Toy:
-        """The body's name in TOYS; otherwise the body itself, or a sphere or a Top with these a, I1 and I3."""
-        try:
-            return self.setup.toy
-        except TopError:  # no top has these; reported where it matters
-            return toy_of(self.shape, self.shape.top)
+    def put_back(self) -> dict[str, Any]:
+        """Of the inputs, those of the top, its motion, its table and the law: enough to do the same again."""
+        others = {*NUMBERS, "landing", "stem", *SEEN[1:]} - {*OF_LAW[self.law]}
+        return {name: value for name, value in self.inputs.items() if name not in others}
+
+    def changed(self, follows: Mapping[str, Any], **inputs: Any) -> "Start":
+        """The start with these inputs. That of GIVEN of which one changes determines the motion from now on, unless
+        `given` is said; its others are as they follow from the motion so far, {input: value}. A push belongs to one
+        motion: it is forgotten when that changes, unless pushes are said."""
+        before = {**follows, **self.inputs}
+        new = {name for name, value in inputs.items() if value != before[name]}
+        way = next((way for way, names in GIVEN.items() if new & {*names} and (way != "E" or way in new)), self.given)
+        given, after = inputs.get("given", way), before | inputs
+        motion = tuple(after[name] for name in GIVEN[given])
+        named = {name: value for name, value in inputs.items() if name not in USUAL}
+        start = replace(self, **named | {"given": given, "motion": motion})
+        same = replace(start, **{name: getattr(self, name) for name in SEEN}) == self
+        return start if same or "pushes" in inputs else replace(start, pushes=())
 
     @property
     def static(self) -> float:
@@ -118,26 +102,59 @@ class Start(param.Parameterized):
         return max(self.mu, 0.0) if self.mu_s is None else self.mu_s
 
     @property
-    def setup(self) -> Setup:
-        """All that its runs depend on; raises TopError if no top has these a, I1 and I3."""
-        top, shape = Top(self.a, self.I1, self.I3), self.shape
-        names = ("spin", "tilt", "slip", "law", "mu", "gamma", "eps", "patch", "landing", "stem")
-        return Setup(
-            top=top, scales=shape.scales, shape=shape if fits(shape, top) else None, mu_s=self.static,
-            rolling=None if self.given == "hand" else self.let_go, pushes=self.pushes,
-            seconds=min(max([SECONDS, *(push.t + ON for push in self.pushes[-1:])]), MOST_SECONDS),
-            **{name: getattr(self, name) for name in names},
-        )  # fmt: skip
+    def top(self) -> Top:
+        """Raises TopError if no top has these a, I1 and I3."""
+        return Top(self.a, self.I1, self.I3)
+
+    @property
+    def body(self) -> tuple[Shape, float, float, float]:
+        """What determines its toy."""
+        return self.shape, self.a, self.I1, self.I3
+
+    @property
+    def toy(self) -> Toy:
+        """The body's name in TOYS; otherwise the body itself, or a sphere or a Top with these a, I1 and I3."""
+        try:
+            top = self.top
+        except TopError:  # reported where it matters
+            return toy_of(self.shape, self.shape.top)
+        return toy_of(self.shape if fits(self.shape, top) else None, top, self.shape.scales)
+
+    @property
+    def of_rolling(self) -> tuple[object, ...]:
+        """All that its rolling motion, and what is shown of that, depends on."""
+        return *self.body, self.given, self.motion, self.static, self.upper, self.limit
 
     @property
     def at_rest(self) -> bool:
         """Whether it is released with G at rest."""
-        return self.given == "hand" and self.slip == 1
+        return self.given == "hand" and self.motion[-1] == 1
 
     @property
-    def let_go(self) -> State:
-        """The State at t = 0, before any table has gripped it."""
-        return by_hand(self.spin, self.tilt, self.slip, self.shape.scales)
+    def let_go(self) -> State | None:
+        """The State at t = 0 of a start by hand, before any table has gripped it."""
+        if self.given != "hand":
+            return None
+        spin, tilt, slip = self.motion
+        return by_hand(spin, tilt, slip, self.shape.scales)
+
+    def setup(self, rolling: State) -> Setup:
+        """All that its runs depend on; rolling: its motion at t = 0 unless a hand lets it go. Raises TopError."""
+        top, shape = self.top, self.shape
+        turns, by_a_hand = shape.scales.angular_velocity / (2 * np.pi), self.given == "hand"
+        motion = self.motion if by_a_hand else (rolling.omega3 * turns, float(np.degrees(rolling.theta)), 1.0)
+        spin, tilt, slip = motion
+        return Setup(
+            top=top, scales=shape.scales, shape=shape if fits(shape, top) else None, mu_s=self.static,
+            spin=spin, tilt=tilt, slip=slip, rolling=None if by_a_hand else rolling,
+            seconds=min(max([SECONDS, *(push.t + ON for push in self.pushes[-1:])]), MOST_SECONDS),
+            **{name: getattr(self, name) for name in OF_RUN},
+        )  # fmt: skip
+
+
+OF_RUN = ("law", "mu", "gamma", "eps", "patch", "landing", "stem", "pushes")
+DEFAULTS = MappingProxyType({field.name: field.default for field in fields(Start)} | USUAL)
+"""{input: its default}."""
 
 
 def rolls(state: State, top: Top) -> State:

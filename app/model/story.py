@@ -323,7 +323,8 @@ class _Told:
     def _numbers(self, i: int, phase: Phase) -> dict[str, Number]:
         """All numbers that the words of a phase may quote."""
         motion, here = self.motion, self._here(phase)
-        tilt, first, last, start = motion.tilt[here], self._at(phase.start), self._at(phase.end), self.curves[0]
+        first, last, start = self._at(phase.start), self._at(phase.end), self.curves[0]
+        tilt = np.array([first[1], *motion.tilt[here], last[1]])  # it may begin and end between two samples
         ahead = self._at(self.phases[min(i + 1, len(self.phases) - 1)].end) if phase.kind == "over" else last
         upto = self.curves[(self.curves[:, 0] >= phase.start) & (self.curves[:, 0] <= ahead[0])]
         return {

@@ -97,7 +97,7 @@ def tells(head, rooms, session):
         head.tops(*choices.tops(session.toy(rooms.room)))
 
     rooms.param.watch(tell, "room")
-    session.explorer.param.watch(tell, ["shape", "a", "I1", "I3"])
+    session.explorer.param.watch(lambda event: event.old.body != event.new.body and tell(), "start")
     session.builder.param.watch(tell, "draft")
     tell()
 

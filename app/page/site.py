@@ -138,7 +138,7 @@ def packed(text):
 def stored(toy, grid, look):
     """What site.js of the bundle shows: for each start the numbers of its runs, and the words in each language."""
     explorer, _ = explorer_of({})
-    lab = Lab(start=explorer)
+    lab = Lab(explorer=explorer)
     lab.show()
     runs, words = {}, {language: {} for language in LANGUAGES}
     for values in product(*grid.values()):

@@ -12,9 +12,9 @@ from urllib.parse import parse_qsl
 import param
 
 from app.model.explorer import Explorer
-from app.model.start import arrives
+from app.model.start import DEFAULTS, GIVEN, USUAL, arrives
 from app.state import asked, older
-from app.state.codecs import Body, Number
+from app.state.codecs import Number
 from app.state.names import FRAME, NAMES, SECRET, VERSION, VERSION_NAME, of, query
 from app.text import say, told
 from tippe_core import TopError
@@ -24,7 +24,6 @@ MOST_NAMES = 60
 STEPS = 100
 
 EXPLORER = of("Explorer")
-FOLLOWING = {name for names in Explorer.GIVEN.values() for name in names}
 
 
 def read(query):
@@ -59,7 +58,7 @@ def shared(query):
     return "&".join(part for part in query.split("&") if not part.startswith(f"{SECRET}="))
 
 
-def values(texts, known, skip=()):
+def values(texts, known):
     """(values, sentence): the parameters in texts; invalid ones are left out and named in the sentence. Never
     raises."""
     found, wrong = {}, []
@@ -101,15 +100,15 @@ def kept(explorer, texts=None, sentence="", **more):
     url_state = UrlState(
         texts, sentence, allowed=lambda: explorer.given == "hand" or not explorer.scene.messages, **more
     )
-    url_state.add(explorer, usual, opened=True)
+    url_state.add(explorer, usual, opened=True, put=explorer.set, watch=["start"])
     return url_state
 
 
 def usual(explorer):
     """{parameter: value} of an Explorer if a query does not mention it; only the inputs by which the start is given,
     and the body."""
-    names = [name for name in EXPLORER if name not in FOLLOWING or name in Explorer.GIVEN[explorer.given]]
-    first = {name: Explorer.param[name].default for name in names}
+    names = [name for name in EXPLORER if name not in USUAL or name in GIVEN[explorer.given]]
+    first = {name: DEFAULTS[name] for name in names}
     first |= {name: value for name, value in arrives().items() if name in first}
     if explorer.shape == first["shape"]:
         return first
@@ -119,12 +118,13 @@ def usual(explorer):
 
 @dataclass(frozen=True)
 class Part:
-    """The state of one view: a Parameterized, {parameter: Name}, and a function that returns the relevant parameters
-    with their defaults."""
+    """The state of one view: a Parameterized, {parameter: Name}, a function that returns the relevant parameters with
+    their defaults, and one that sets parameters."""
 
     owner: param.Parameterized
     known: dict
     usual: Any
+    put: Any
 
     def state(self, undoable=False):
         """{parameter: present value} of the relevant parameters."""
@@ -159,11 +159,12 @@ class UrlState(param.Parameterized):
         """{key: text} of the link that no view has asked for yet."""
         return dict(self._texts)
 
-    def add(self, owner, usual=None, opened=False):
+    def add(self, owner, usual=None, opened=False, put=None, watch=None):
         """Also stores the parameters that NAMES lists for the class of this view, and sets them as the link says.
 
         usual: returns the owner's relevant parameters with their defaults; all of them if it is not given. opened: the
-        link has already been applied.
+        link has already been applied. put: sets them, and watch: what to watch for them, if an owner keeps them in a
+        record of its own.
         """
         kind = type(owner).__name__
         known = of(kind)
@@ -171,16 +172,16 @@ class UrlState(param.Parameterized):
             raise LookupError(f"no name of an address is of a {kind}: see NAMES")
         if any(type(part.owner).__name__ == kind for part in self._parts):
             raise LookupError(f"the names of a {kind} are taken: {', '.join(name.key for name in known.values())}")
-        first = {name: owner.param[name].default for name in known}
-        part = Part(owner, known, usual or (lambda owner: first))
+        first = {} if usual else {name: owner.param[name].default for name in known}
+        part = Part(owner, known, usual or (lambda owner: first), put or owner.param.update)
         found, wrong = values(self._texts, known)
         for name in known.values():
             self._texts.pop(name.key, None)
         if not opened:
-            owner.param.update(**found)
+            part.put(**found)
             self.sentence = " ".join(filter(None, (self.sentence, wrong)))
         self._parts.append(part)
-        owner.param.watch(partial(self._set, known), list(known))
+        owner.param.watch(partial(self._set, known), watch or list(known))
         # creating a view is not a step
         self._steps = [step | {id(owner): part.state(undoable=True)} for step in self._steps]
         self._write()
@@ -188,8 +189,8 @@ class UrlState(param.Parameterized):
     def _set(self, known, *events):
         """Sets parameters back that were given a value which a page never sends."""
         for event in events:
-            if known[event.name].codec is Body or (event.new is None and event.obj.param[event.name].allow_None):
-                continue  # no page sends a body; and None, where it is allowed, is not written in a link
+            if event.name not in known or (event.new is None and event.obj.param[event.name].allow_None):
+                continue  # no page sends a record; and None, where it is allowed, is not written in a link
             try:
                 known[event.name].codec.text(event.new)
             except (ValueError, TypeError, OverflowError) as error:
@@ -226,7 +227,7 @@ class UrlState(param.Parameterized):
             found = values(waiting, known)[0]
             usual = part.usual(part.owner)
             first = {name: usual[name] for name in known if usual.get(name) is not None}
-            part.owner.param.update(**first | found)
+            part.put(**first | found)
             for name in known.values():
                 waiting.pop(name.key, None)
         self._texts |= waiting
@@ -237,7 +238,7 @@ class UrlState(param.Parameterized):
             return
         self._at, self._gesture = to, None
         for part in self._parts:
-            part.owner.param.update(**self._steps[to][id(part.owner)])
+            part.put(**self._steps[to][id(part.owner)])
         self._write()
 
     def _write(self):

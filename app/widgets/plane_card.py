@@ -5,9 +5,9 @@ from functools import partial
 import panel as pn
 
 from app.borrowed import at_once
-from app.model.explorer import Explorer
 from app.model.roll.slipping import slipping
 from app.model.runs import LATER, Run, Runs, Stopped
+from app.model.start import DEFAULTS, GIVEN
 from app.state import asked
 from app.widgets.plane_view import PlaneView
 from tippe_core import Top, TruncatedSphere
@@ -56,6 +56,5 @@ class PlaneCard:
 def papers():
     """Inputs of the Explorer: the paper's top, as it is at first."""
     shape, top = TruncatedSphere.paper(), Top.paper()
-    names = (*Explorer.GIVEN["share"], "given", "mu_s")
-    first = {name: Explorer.param[name].default for name in names}
+    first = {name: DEFAULTS[name] for name in (*GIVEN["share"], "given", "mu_s")}
     return first | {"shape": shape, "a": top.a, "I1": top.I1, "I3": top.I3}

@@ -10,7 +10,6 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled
-from app.together import set_together
 from app.widgets.failure import after, attempt
 from app.widgets.rest import REST, Rest
 
@@ -107,7 +106,7 @@ class RenderScheduler:
         self._drawing = [sent for sent in self._drawing if sent[1] > late]
         if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
             inputs, self._wanted = self._wanted, {}
-            set_together(self._explorer, **inputs)
+            self._explorer.set(**inputs)
         if not self._drawing and not (self._single and self._hands):
             if not self._round and self._round_is_due:
                 scene, self._round_is_due = self._explorer.scene, False

@@ -13,6 +13,7 @@ from typing import Any
 import param
 
 from app.model.arrival import TILT
+from app.model.explorer import Explorer
 from app.model.keeps import keeps, while_it_turns
 from app.model.lab.allowed import LIMITS, POSSIBLE, below, fault, nearest, refusal
 from app.model.lab.ends import Ends, ends_once, known_ends, of_spins
@@ -20,7 +21,7 @@ from app.model.run import SHIPS, TableMotion, check_pushes, motion_on, whole_on
 from app.model.runs import LATER, Result, Run, Runs, Stopped
 from app.model.setup import OF_LAW, TABLES, Setup, Toy
 from app.model.side_by_side import of_all
-from app.model.start import NUMBERS, Start, arrives, of_toy
+from app.model.start import GIVEN, NUMBERS, USUAL, Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, story
 from app.text import say
 from app.together import set_together
@@ -29,8 +30,7 @@ from tippe_core.types import Array
 
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
 OF_TOP = ("a", "I1", "I3")
-WATCHED = ("table", "shape", *OF_TOP, "given", "spin", "tilt", "slip", "theta_dot", "omega2", "law", *NUMBERS,
-           "landing", "stem", "pushes")  # fmt: skip
+BY_HAND = {"toy", *GIVEN["hand"]}  # what makes a start one by hand
 Inputs = tuple[str, Setup]
 FIRST: Inputs = SHIPS
 IN_LAB = {"mu_k": "mu", "friction": "mu", "radius": "patch"}
@@ -118,11 +118,11 @@ def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
 
 
 class Lab(param.Parameterized):
-    """Computes what the page's Start does on the Lab's tables; each result is one `scene` event. An input that is
+    """Computes what the page's one start does on the Lab's tables; each result is one `scene` event. An input that is
     refused goes back to its previous value.
 
-    start: the Start, which ask() sets; runs: the page's Runs. If several starts are requested while one is computed,
-    only the newest of them is computed.
+    explorer: has the start, which ask() changes; runs: the page's Runs. If several starts are requested while one is
+    computed, only the newest of them is computed.
     """
 
     busy = param.Boolean(False, constant=True, doc="whether a newer start is being computed")
@@ -131,8 +131,8 @@ class Lab(param.Parameterized):
 
     INPUTS = ("table", "toy", "spin", "tilt", "slip", "law", *NUMBERS, "landing", "stem", "pushes")
 
-    def __init__(self, runs: Runs | None = None, start: Start | None = None) -> None:
-        self.start = start or Start(**arrives())
+    def __init__(self, runs: Runs | None = None, explorer: Explorer | None = None) -> None:
+        self.explorer = explorer or Explorer(**arrives())
         self._runs = runs or Runs()
         self._run: Run | None = None
         self._shown = self.begun = self._again = self.rests = False
@@ -140,20 +140,20 @@ class Lab(param.Parameterized):
         self.refused: dict[str, object] = {}  # the values of a link, or of another room, that cannot be
         self.nearest: dict[str, float] = {}  # what can be, of each input that was refused as a number
         self._good = FIRST
-        self._back = Start(**arrives()).set  # what sets the Start back to it
+        self._back = Start().changed(USUAL, **arrives()).put_back  # what sets the start back to it
         self._strip: Setup | None = None
         self._seen: Inputs | None = None  # the inputs at the last call of _follow()
         super().__init__()  # type: ignore[no-untyped-call]  # of param
-        self.start.param.watch(self._follow, list(WATCHED))
+        self.explorer.param.watch(self._follow, "start")
 
     @property
     def inputs(self) -> Inputs:
         """The present inputs."""
-        return self.start.table, self.start.setup
+        return self.explorer.table, self.explorer.setup
 
     def value(self, name: str) -> Any:
         """The present value of an input."""
-        return self.start.static if name == "mu_s" else getattr(self.start, name)
+        return getattr(self.explorer, "static" if name == "mu_s" else name)
 
     def show(self) -> None:
         """Starts computing the present inputs; nothing is computed before the view is shown."""
@@ -170,24 +170,23 @@ class Lab(param.Parameterized):
         faults = {name: fault(name, value) for name, value in inputs.items()}
         self._messages, self.refused = {name: said for name, said in faults.items() if said}, {}
         self.nearest = {name: near for name in self._messages if (near := nearest(name, inputs[name])) is not None}
-        self._set_start({name: value for name, value in inputs.items() if not faults[name]})
+        found: dict[str, Any] = {name: value for name, value in inputs.items() if not faults[name]}
+        if BY_HAND & found.keys():
+            found["given"] = "hand"
+        if "toy" in found:
+            found |= of_toy(found.pop("toy"))
+        self._set((self._back if self._fault else {}) | found)
         self._tell()
 
-    def _set_start(self, inputs: dict[str, Any]) -> None:
-        """Sets the Start from inputs of the Lab."""
-        start = self.start
-        found = inputs | (of_toy(inputs["toy"]) if "toy" in inputs else {})
-        if {"toy", "spin", "tilt", "slip"} & inputs.keys():
-            slip = start.slip if start.given == "hand" else 1.0
-            found = {"given": "hand", "spin": start.spin, "tilt": start.tilt, "slip": slip} | found
-        found.pop("toy", None)
-        start.later(**(self._back if self._fault else {}) | found)
+    def _set(self, inputs: dict[str, Any]) -> None:
+        """Changes the start; how it would roll is solved when somebody will see it."""
+        self.explorer.set(solve=False, **inputs)
 
     @property
     def _fault(self) -> TopError | None:
-        """Why the Start has no Setup."""
+        """Why the start has no Setup."""
         try:
-            self.start.setup  # noqa: B018
+            self.explorer.setup  # noqa: B018
         except TopError as error:
             return error
         return None
@@ -204,19 +203,19 @@ class Lab(param.Parameterized):
         if self._run is None:
             return
         self._run.stop()
-        self.start.later(**self._back)
+        self._set(self._back)
 
     @property
     def _key(self) -> Setup | None:
         """The start of the Ends; None if it is not by hand with G at rest."""
-        return of_spins(self.start.setup) if self.start.at_rest else None
+        return of_spins(self.explorer.setup) if self.explorer.at_rest else None
 
     def rest(self) -> None:
         """To be called when no hand moves: looks up how the runs at all spins end, or has it computed in a thread."""
         self.rests = True
         self._live()  # before the ends at all spins, which take far longer
         key = self._strip = self._key
-        self._set(ends=key and known_ends(key))
+        self._put(ends=key and known_ends(key))
         if key and self.ends is None:
             work = Run(lambda run: ends_once(key, look=run.look), partial(self._ended, key))
             self._runs.begin(work, "ends", LATER)
@@ -233,17 +232,17 @@ class Lab(param.Parameterized):
         scene = self.scene
         if isinstance(result, LabScene) and scene is not None:
             if inputs == self._good and not result.refused.keys() - scene.refused.keys():
-                self._set(scene=replace(result, messages=scene.messages))
+                self._put(scene=replace(result, messages=scene.messages))
         elif not isinstance(result, Stopped):
             raise result
 
     def _ended(self, key: Setup, result: Result) -> None:
         if isinstance(result, Ends) and key == self._key:
-            self._set(ends=result)
+            self._put(ends=result)
         elif isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
             raise result
 
-    def _set(self, **values: object) -> None:
+    def _put(self, **values: object) -> None:
         """Sets constant parameters; there is an event only if their values change."""
         with param.edit_constant(self):
             set_together(self, **values)
@@ -252,26 +251,26 @@ class Lab(param.Parameterized):
         """Computes the present inputs, now or when the present run is done."""
         if not self._shown:
             return
-        law = OF_LAW[self.start.law]
+        law = OF_LAW[self.explorer.law]
         values = {name: self.value(name) for name in self.INPUTS if name in law or name not in NUMBERS}
         faults = {name: said for name, value in values.items() if (said := fault(name, value, POSSIBLE))}
         self.refused |= {name: values[name] for name in faults}
         self.nearest |= {name: near for name in faults if (near := nearest(name, values[name])) is not None}
         error = self._fault
-        if error is not None and (error.name in OF_TOP or self.start.given != "hand"):
+        if error is not None and (error.name in OF_TOP or self.explorer.given != "hand"):
             return  # an input that is not the Lab's; its own control says why, and keeps the value until it is changed
         if error is not None:
             faults["tilt"] = refusal(error)  # which any start by hand has
         if faults:  # they came from a link, or from another room
             self._messages |= faults
-            self.start.later(**self._back)
+            self._set(self._back)
             self._tell()
             return
         if events and self.inputs == self._seen:
-            return  # only the rolling motion, which follows from these inputs, has changed
+            return  # only what does not count for these runs has changed
         self._seen = self.inputs
         if self._strip != self._key:
-            self._set(ends=None)
+            self._put(ends=None)
         self.rests = False
         if self.scene is not None and self.inputs == self._good and self._run is None:
             return
@@ -284,12 +283,12 @@ class Lab(param.Parameterized):
 
     def _begin(self) -> None:
         inputs, self._again = self.inputs, False
-        work = Run(lambda run: scene_of(*inputs), partial(self._done, inputs, self.start.set))
+        work = Run(lambda run: scene_of(*inputs), partial(self._done, inputs, self.explorer.put_back))
         if inputs == FIRST or not self._runs.beside:  # the result that ships needs no thread
             work.done(work.result())
             return
         self._run = work
-        self._set(busy=True)
+        self._put(busy=True)
         self._runs.begin(work, "lab")
 
     def _done(self, inputs: Inputs, back: dict[str, Any], result: Result) -> None:
@@ -301,11 +300,11 @@ class Lab(param.Parameterized):
         idle = {"busy": False} if self._run is None else {}
         if isinstance(result, LabScene):
             self._good, self._back = inputs, back
-            self._set(scene=result, **idle)
+            self._put(scene=result, **idle)
             self._tell()
             self._live()
             return
-        self._set(**idle)
+        self._put(**idle)
         if isinstance(result, TopError):
             self._refused(inputs, result)
         elif not isinstance(result, Stopped):
@@ -326,16 +325,16 @@ class Lab(param.Parameterized):
         if self.inputs != inputs:
             return  # another start has been requested meanwhile
         good = self._good[1]
-        known = good.toy == self.start.toy and self.scene
+        known = good.toy == self.explorer.toy and self.scene
         back = self._back
         if name == "pushes":
             here = replace(inputs[1], pushes=good.pushes, seconds=good.seconds) == good
             back = {"pushes": (here and good.pushes) or inputs[1].pushes[:-1]}  # the others may be of a link
-        elif name == "tilt" and self.start.at_rest:
+        elif name == "tilt" and self.explorer.at_rest:
             back = {"tilt": good.tilt if known else TILT}
         elif name in self.nearest and self._differs_elsewhere(inputs[1]):
             back = {name: self.nearest[name]}  # the rest, which may be of a link, stays
-        self.start.later(**back)
+        self._set(back)
         self._tell()
 
     def _differs_elsewhere(self, start: Setup) -> bool:
@@ -345,4 +344,4 @@ class Lab(param.Parameterized):
     def _tell(self) -> None:
         """Copies the messages into the scene."""
         if self.scene is not None and dict(self.scene.messages) != self._messages:
-            self._set(scene=replace(self.scene, messages=MappingProxyType(dict(self._messages))))
+            self._put(scene=replace(self.scene, messages=MappingProxyType(dict(self._messages))))

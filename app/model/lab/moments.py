@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.model.events import happened
-from app.model.motion import PUSHED, Motion
+from app.model.motion import PUSHED
 from app.model.phases import carried
 from app.model.regimes import NAMES
 from app.model.run import TableMotion
@@ -42,7 +42,7 @@ def moments(motion: TableMotion | None) -> tuple[Moment, ...]:
     return tuple(Moment(t / unit, t, word, _after(motion, t / unit, part)) for t, word in told)
 
 
-def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
+def _turns(motion: TableMotion, unit: float) -> list[tuple[float, str]]:
     """The first time at which the spin about its own axis, and K_R with it, is zero."""
     spin, t = motion.trajectory.omega[:, 2], motion.trajectory.t
     at = np.flatnonzero(spin[:-1] * spin[1:] < 0)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.motion import Motion
+from app.model.run import TableMotion
 from tippe_core import Scales, Trajectory
 from tippe_core.types import Array
 
@@ -48,7 +48,7 @@ def extremes(t: Array, values: Array) -> Track:
     return Track(t[rows], values[rows])
 
 
-def ledger(motion: Motion, scales: Scales) -> tuple[Array, dict[str, Array]]:
-    """(t, {name: energy}) at POINTS times, like Motion.ledger."""
+def ledger(motion: TableMotion, scales: Scales) -> tuple[Array, dict[str, Array]]:
+    """(t, {name: energy}) at POINTS times, like TableMotion.ledger."""
     every = np.unique(np.linspace(0, len(motion.trajectory.t) - 1, POINTS).astype(int))
     return motion.trajectory.t[every] * scales.time, {name: part[every] for name, part in motion.ledger.items()}

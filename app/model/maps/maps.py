@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.model.scene import Scene
+from app.model.setup import by_hand
 from tippe_core import PRESETS, Contensou, Coulomb, Friction, Scales, SmoothedCoulomb, State, Top, TopError, Viscous
 from tippe_core.types import Array, Rim
 
@@ -175,8 +176,7 @@ class Cell(NamedTuple):
         own, mine, _ = asked.thing
         top = own if not {"a", "ratio"} & {asked.across, asked.up} else Top(x["a"], x["ratio"] * own.I3, own.I3)
         scales = Scales(x["R"] / 1e3, mine.M, mine.g)
-        theta, spin = float(np.radians(x["tilt"])), 2 * np.pi * x["spin"] / scales.angular_velocity
-        state = State(theta, 0.0, 0.0, spin, vx=-(1 - x["slip"]) * spin * np.sin(theta), vy=0.0)
+        state = by_hand(x["spin"], x["tilt"], x["slip"], scales)
         return cls(top, scales, _edge(asked, x), state, _law(asked.law, x, scales), asked.seconds / scales.time)
 
 

@@ -135,7 +135,7 @@ class LabTab:
             self._lab.ask(**EXAMPLES[value])
         elif name == "pushes":
             self._push(asked.text(value))
-        elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
+        elif name in Lab.INPUTS or name in dimensions(self._lab.explorer.toy):
             self._tried[name], self._wrong, self._near = value, {}, {}
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
         else:
@@ -161,7 +161,7 @@ class LabTab:
     def _of_body(self, name, value):
         """The inputs of the Lab for a dimension of the body, in its unit; none, and a sentence at that input, if there
         is no such body."""
-        toy, dimension = self._lab.start.toy, dimensions(self._lab.start.toy)[name]
+        toy, dimension = self._lab.explorer.toy, dimensions(self._lab.explorer.toy)[name]
         try:
             number = asked.number(value)
         except asked.Unasked:
@@ -213,7 +213,7 @@ class LabTab:
         self.view.tell(**changes)
 
     def _state(self, scene):
-        lab, start, asked = self._lab, self._lab.start, self._asked(scene)
+        lab, start, asked = self._lab, self._lab.explorer, self._asked(scene)
         toy = start.toy
         messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
         dims = dimensions(toy)

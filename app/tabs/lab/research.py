@@ -68,12 +68,12 @@ class Research(param.Parameterized):
             scheduler.shows(partial(self._on_scene, when), when)
         lab.param.watch(lambda event: self._on_run(), "scene")
         self.param.watch(lambda event: self._look(), "panel")
-        lab.start.param.watch(lambda event: self._look(), "table")
+        lab.explorer.param.watch(lambda event: event.old.table != event.new.table and self._look(), "start")
 
     @property
     def shown(self):
         """The panel that is shown."""
-        usual = "which" if self._lab.start.table == "rough" else "time"
+        usual = "which" if self._lab.explorer.table == "rough" else "time"
         return usual if self.panel == AUTO else self.panel
 
     @property
@@ -84,7 +84,7 @@ class Research(param.Parameterized):
     def open(self, is_open):
         self._open = is_open
         if is_open:
-            self._lab.start.settle()
+            self._lab.explorer.settle()
             self._look()
 
     def _chosen(self, event):
@@ -100,7 +100,7 @@ class Research(param.Parameterized):
         name = self.shown
         with pn.io.hold():
             self._switch.value = name
-            self._note.visible = name in ROLLING and self._lab.start.table != "rough"
+            self._note.visible = name in ROLLING and self._lab.explorer.table != "rough"
             if name not in self._made:
                 content, draws = self._makers[name]()
                 self._made[name] = draws
@@ -120,13 +120,13 @@ class Research(param.Parameterized):
 
     def _on_run(self):
         if self._open:
-            self._lab.start.settle()  # how it would roll is seen here
+            self._lab.explorer.settle()  # how it would roll is seen here
             self._draw("lab")
 
     def _draw(self, when):
         """Draws what the panel shows at this occasion, unless it is drawn."""
         draw = self._made.get(self.shown, {}).get(when) if self._open else None
-        scene = self._lab.scene if when == "lab" else self._lab.start.scene
+        scene = self._lab.scene if when == "lab" else self._lab.explorer.scene
         if draw is None or scene is None or self._drawn.get(draw) is scene:
             return
         self._drawn[draw] = scene
@@ -152,7 +152,7 @@ class Research(param.Parameterized):
 
     def _span(self, scene):
         """For how long (s) the motion is drawn at first: some nods, if that is all that it does."""
-        rolling = self._lab.start.scene
+        rolling = self._lab.explorer.scene
         return rolling.trajectory.t[-1] * rolling.scales.time if scene.table == "rough" else np.inf
 
     def _make_values(self):
@@ -165,7 +165,7 @@ class Research(param.Parameterized):
                              for t, seconds, word, more in moments(scene.motions[table])]  # fmt: skip
             kept.object = table_words(scene)
             of_run.object = f'<div class="key">{run_words(scene.start, table)}</div>'
-            self.rolling.say(self._lab.start.scene if scene.table == "rough" else None)
+            self.rolling.say(self._lab.explorer.scene if scene.table == "rough" else None)
             scatters.object = ""
             motion = scene.motions["ordinary"]
             if hits(motion):
@@ -200,4 +200,4 @@ class Research(param.Parameterized):
 
     def _pick(self, a, ratio):
         """Asks for the top with this a and I1/I3, and the present I3."""
-        self._pacer.ask(a=a, I1=ratio * self._lab.start.scene.top.I3)
+        self._pacer.ask(a=a, I1=ratio * self._lab.explorer.scene.top.I3)

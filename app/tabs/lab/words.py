@@ -6,8 +6,9 @@ import numpy as np
 
 from app.model.lab.moments import SHORT
 from app.model.lab.traced import turns_back
-from app.model.motion import RTOL, THROWN
+from app.model.motion import RTOL
 from app.model.pushes import push_words
+from app.model.run import THROWN
 from app.model.setup import TABLES
 from app.text import listed, say, written
 from app.widgets.typeset import power
