@@ -54,7 +54,8 @@ def test_a_refusal_is_logged_once_in_ten_seconds_for_each_address_and_then_with_
     logger.addHandler(handler := logging.Handler())
     handler.addFilter(seldom)
     handler.emit = lambda record: said.append(record.getMessage())
-    monkeypatch.setattr("app.server.logs.logging", SimpleNamespace(getLogger=lambda name: logger))
+    log = SimpleNamespace(getLogger=lambda name: logger, ERROR=logging.ERROR)
+    monkeypatch.setattr("app.server.logs.logging", log)
     for address in ("10.0.0.1", "10.0.0.1", "10.0.0.2", "10.0.0.1"):
         refused(address, "full", "refused %s: %s", address, "full")
     refused("10.0.0.1", "other", "refused %s: %s", "10.0.0.1", "100 % other")
