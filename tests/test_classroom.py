@@ -222,7 +222,7 @@ def test_what_is_kept_tells_no_names(workers):
     rooms = workers[0]
     room, key = rooms.open(HERE, **CHOICE)
     rooms.vote(room.code, "the phone", HERE, "over")
-    kept = rooms.look([room.code, classroom.REGISTER])
+    kept = rooms._store.read([room.code, classroom.REGISTER])
     assert len(kept) == 2
     for text in kept.values():
         assert HERE not in text and "the phone" not in text and key.split(".")[1] not in text

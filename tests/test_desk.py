@@ -101,6 +101,29 @@ def test_a_store_that_hangs_or_goes_keeps_no_page_waiting_and_is_asked_again(des
     until(lambda: teacher[-1].votes == ("over",))
 
 
+def test_a_store_that_comes_back_empty_has_lost_the_class_and_nobody_has_closed_it(desk, slow):
+    """All of it was lost, or the room alone; then the teacher opens another one, and closes it."""
+    room, _ = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    news = [[], []]
+    for each, votes in zip(news, (True, False), strict=True):
+        desk.watch(room.code, each.append, votes=votes)
+    until(lambda: all(news))
+    slow.texts.clear()
+    until(lambda: all(str(each[-1]) == "lost" for each in news))
+    assert all(isinstance(each[-1], classroom.Refused) for each in news)
+    second, key = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    seen, held = [], slow.texts[second.code]
+    desk.watch(second.code, seen.append)
+    until(lambda: seen)
+    del slow.texts[second.code]
+    until(lambda: str(seen[-1]) == "lost")
+    slow.texts[second.code] = held
+    until(lambda: isinstance(seen[-1], classroom.Room))
+    asked(desk, lambda rooms: rooms.close(key))
+    until(lambda: seen[-1] is None)
+    assert [len(each) for each in news] == [2, 2]
+
+
 def test_a_teacher_who_looks_keeps_his_room(desk, slow, monkeypatch):
     for module in (classroom, desks):
         monkeypatch.setattr(module, "USED", 0.0)

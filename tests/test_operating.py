@@ -54,7 +54,8 @@ def test_a_refusal_is_logged_once_in_ten_seconds_for_each_address_and_then_with_
     logger.addHandler(handler := logging.Handler())
     handler.addFilter(seldom)
     handler.emit = lambda record: said.append(record.getMessage())
-    monkeypatch.setattr("app.server.logs.logging", SimpleNamespace(getLogger=lambda name: logger))
+    log = SimpleNamespace(getLogger=lambda name: logger, ERROR=logging.ERROR)
+    monkeypatch.setattr("app.server.logs.logging", log)
     for address in ("10.0.0.1", "10.0.0.1", "10.0.0.2", "10.0.0.1"):
         refused(address, "full", "refused %s: %s", address, "full")
     refused("10.0.0.1", "other", "refused %s: %s", "10.0.0.1", "100 % other")
@@ -65,7 +66,9 @@ def test_a_refusal_is_logged_once_in_ten_seconds_for_each_address_and_then_with_
     for number in range(30_000):  # many addresses are not remembered for ever
         now[0] += 0.01
         refused(str(number), "full", "refused %s: %s", number, "full")
-    assert len(seldom._said) <= 10_002
+    assert len(seldom._said) <= 10_002 and seldom.errors == 0
+    logger.error("a bug")
+    assert seldom.errors == 1
 
 
 class Kept:
@@ -289,7 +292,7 @@ def test_a_server_with_a_prefix_says_how_it_is_until_it_stops(tmp_path):
         assert found["tippe_queue_turns_total"][Labels(worker="0", queue="session")] == 2
         assert found["tippe_queue_length"][Labels(worker="0", queue="run")] == 0
         assert found["tippe_moves_total"][one] >= 1 and 0 < found["tippe_moves_seconds_total"][one] < 60
-        assert found["tippe_sessions_made_total"][one] == 2 and found["tippe_bugs_total"][one] == 0
+        assert found["tippe_sessions_made_total"][one] == 2 and found["tippe_errors_total"][one] == 0
         assert found["tippe_cpu_seconds_total"][one] > 0.1 and found["tippe_votes_away"][one] == 0
         assert abs(found["tippe_start_time_seconds"][one] - time.time()) < 3600
         assert found["tippe_build"] == {Labels(version=metadata.version("tippe-top-explorer")): 1}

@@ -9,7 +9,7 @@ from panel.io.state import set_curdoc
 from app.model.runs import Runs
 from app.page.page import page
 from app.page.session import Session
-from app.widgets.rooms import taken_apart
+from app.widgets.rooms import AWAY, MOST, Place, taken_apart
 
 
 @pytest.mark.parametrize("level", ["explore", "research"])
@@ -29,3 +29,30 @@ def test_a_lab_whose_level_changes_while_it_comes_is_whole(monkeypatch, level):
             put()
         names = [type(part).__name__ for part in view]
         assert names[0] == "LabView" and len(names) == 2
+
+
+def test_a_room_that_nobody_looks_at_gives_its_parts_back_and_comes_again_as_it_was(monkeypatch):
+    made, later = [], []
+    monkeypatch.setattr("app.widgets.rooms.after", lambda seconds, act: later.append((seconds, act)))
+
+    def make():
+        made.append(pn.Column(*(pn.pane.HTML(str(i)) for i in range(2 * MOST))))
+        return made[-1]
+
+    document = Document()
+    with set_curdoc(document):
+        place = Place("maps", make, lambda act: act())
+        pn.Column(place.column).server_doc(document)
+        few = len(document.models)
+        place.fill()
+        many = len(document.models)
+        made[0][7].object = "new"
+        for _ in range(2):  # between the two the page looks again
+            place.left()
+        (seconds, early), (_, late) = later
+        early()
+        assert len(document.models) == many and seconds == AWAY
+        late()
+        assert len(document.models) == few
+        place.ask()
+        assert len(document.models) == many > few + MOST and len(made) == 1 and made[0][7].object == "new"

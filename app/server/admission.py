@@ -23,7 +23,6 @@ class Admission:
         self.making, self.pages = Turns(pause=0.25), Turns(pause=4)
         self.stopping, self.refused = False, Counter()  # why -> how often
         self.moves, self.moving = 0, 0.0  # how many messages were answered, and s that this took in all
-        self.bugs = 0  # errors of our own code
         self._most = FILLED * memory_limit() / settings.workers
 
     @property

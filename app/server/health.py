@@ -48,7 +48,7 @@ class Metrics(Handler):
     COUNTERS = (
         ("tippe_cpu_seconds", "processor", "Time of the processor"),
         ("tippe_sessions_made", "session turns", "Sessions that were made"),
-        ("tippe_bugs", "bugs", "Errors in this program's own code"),
+        ("tippe_errors", "errors", "Lines of error in the log"),
         ("tippe_moves", "moves", "Messages of pages that were answered"),
         ("tippe_moves_seconds", "moving", "How long these took to be answered, in all"),
     )

@@ -38,13 +38,16 @@ MOST = 10_000  # that are remembered
 
 class Seldom(logging.Filter):
     """Lets the same refusal of the same address through once in AGAIN, with how often it was held back before, so that
-    no visitor can fill the log. A record is such a refusal if it has `seldom`: the address, and the reason."""
+    no visitor can fill the log. A record is such a refusal if it has `seldom`: the address, and the reason. errors: how
+    many lines of error there were."""
 
     def __init__(self):
         super().__init__()
+        self.errors = 0
         self._said = {}  # (address, reason) -> (when it was let through, how often it was not since)
 
     def filter(self, record):
+        self.errors += record.levelno >= logging.ERROR
         of = getattr(record, "seldom", None)
         if of is None:
             return True
@@ -59,6 +62,9 @@ class Seldom(logging.Filter):
         if held:
             record.msg, record.args = f"{record.getMessage()} ({held} more like this before)", ()
         return True
+
+
+SELDOM = Seldom()  # of this process
 
 
 def refused(address, why, line, *values):
@@ -95,7 +101,7 @@ def begin(settings):
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True)
     logging.captureWarnings(True)
     [handler] = logging.getLogger().handlers
-    handler.addFilter(Seldom())
+    handler.addFilter(SELDOM)
     handler.setFormatter(Line(settings.log_format == "json", settings.log_addresses))
     logging.getLogger("tippe").setLevel(settings.log.upper())
     sys.excepthook = lambda *error: logging.getLogger("tippe").critical("the server cannot go on", exc_info=error)

@@ -13,7 +13,7 @@ from bokeh.server.util import check_allowlist
 from app.model.votes.ballots import store
 from app.server.memory import FILLED, memory_limit
 
-OF_WORKER, OF_PAGE = 300e6, 8e6  # bytes; a page that has seen all rooms has five times as many
+OF_WORKER, OF_PAGE = 300e6, 8e6  # bytes; a page that has seen all rooms has twice as many
 PORT = re.compile(r":(\d+|\*)$")
 
 

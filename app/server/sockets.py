@@ -238,7 +238,6 @@ class Socket(Answer, WSHandler):
             act = ServerSession.pull if message.msgtype == "PULL-DOC-REQ" else ServerSession.patch
             reply = await act(message, self.connection)
         except Exception as error:
-            self.application.admission.bugs += ours(error)
             sentence = note(error, self.address)
             self.application.admission.refused["message"] += 1
             if self.connection is None:

@@ -12,6 +12,7 @@ from tornado.ioloop import IOLoop
 from app.kernels import compiling
 from app.model.runs import FILES, LATER, MAPS, WORK
 from app.model.votes.desk import DESK
+from app.server.logs import SELDOM
 from app.server.memory import memory
 from app.turns import rooms
 
@@ -23,8 +24,8 @@ POOLS = {"run": WORK, "later": LATER, "file": FILES, "map": MAPS}
 # Each reports how many wait, how many had their turn, and how long those waited.
 QUEUES = ("page", "session", "room", *POOLS)
 STATES = ("full", "stopping", "compiling")
-FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files", "moves", "moving", "bugs", "processor",
-          "started", "away",
+FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files", "moves", "moving", "errors",
+          "processor", "started", "away",
           *(f"refused {why}" for why in REFUSALS),
           *(f"{queue} {each}" for queue in QUEUES for each in ("waiting", "turns", "waited")))  # fmt: skip
 
@@ -83,8 +84,7 @@ class Watch:
             full=admission.full, stopping=admission.stopping, compiling=compiling(), sessions=len(admission.sessions),
             connections=len(admission.sockets), delay=max(self._delays), memory=memory(),
             files=files() if admission.settings.metrics else np.nan, moves=admission.moves, moving=admission.moving,
-            bugs=admission.bugs,
-            processor=time.process_time(), started=self._started, away=DESK.away,
+            errors=SELDOM.errors, processor=time.process_time(), started=self._started, away=DESK.away,
             **{f"refused {why}": admission.refused[why] for why in REFUSALS},
             **{f"{name} waiting": queue.waiting() for name, queue in queues.items()},
             **{f"{name} turns": queue.turns for name, queue in queues.items()},

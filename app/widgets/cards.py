@@ -122,6 +122,21 @@ def grid(*cards, narrowest=480):
     )
 
 
+class Hidden(pn.Column):
+    """A column whose content is created when it is first shown: parts that nobody sees cost as much as others. make:
+    a function that returns a list of them."""
+
+    def __init__(self, make):
+        super().__init__(sizing_mode="stretch_width", margin=0, visible=False)
+        self._make = make
+        self.param.watch(self._fill, "visible")
+
+    def _fill(self, event):
+        make, self._make = self._make, None
+        if make:
+            self.objects = make()
+
+
 def first(made, below=0):
     """Makes a card the first of a stage; below: the height in px of the other cards of the stage, with the gaps."""
     made.styles = made.styles | {"--below": f"{below}px"}

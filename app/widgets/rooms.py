@@ -1,6 +1,6 @@
 """The rooms of the page: a place for each view, one of which is visible. The browser answers a click at once; a view is
-created when it is first shown, and then stays. Until then its place says that it is being created, or that this
-failed."""
+created when it is first shown, and then stays; if nobody has looked at it for long, the page gives its parts back.
+Until then its place says that it is being created, or that this failed."""
 
 import logging
 import time
@@ -13,11 +13,12 @@ from app import turns
 from app.model.runs import connected_to, to_session
 from app.text import say
 from app.widgets.cards import alert, note, words
-from app.widgets.failure import attempt
+from app.widgets.failure import after, attempt
 from app.widgets.forms import Button
 
 AROUND = (24, 28)
-MOST = 60  # parts of the page that are created in one step: 0.1 to 0.4 s, of which 0.1 s is the step itself
+MOST = 60  # parts of the page that are created in one step; more steps cost more, because each one counts all models
+AWAY = 600.0  # s after which a room of more parts gives them back; what was entered in it stays
 
 log = logging.getLogger("tippe")
 
@@ -27,14 +28,19 @@ def taken_apart(view, most=MOST):
     if not isinstance(view, pn.Column) or len(view.select()) <= most:
         return []
     parts, view.objects = [*view.objects], []
-    puts = []
-    for place, part in enumerate(parts):
+    puts, begin = [], 0
+    while begin < len(parts):
+        end, count = begin + 1, len(parts[begin].select())
+        while end < len(parts) and (count := count + len(parts[end].select())) <= most:
+            end += 1
+        inside = taken_apart(parts[begin], most)
 
-        def put(place=place, part=part):
-            if list(view.objects) == parts[:place]:  # it has not changed meanwhile
-                view.append(part)
+        def put(begin=begin, end=end):
+            if list(view.objects) == parts[:begin]:  # it has not changed meanwhile
+                view.extend(parts[begin:end])
 
-        puts += [put, *taken_apart(part, most)]
+        puts += [put, *inside]
+        begin = end
     return puts
 
 
@@ -46,7 +52,8 @@ class Place:
 
     def __init__(self, name, make, add):
         self._make, self._add, self._view, self._asked = make, add, None, False
-        self._steps = []  # that are still to be done
+        self._steps, self._stands = [], False  # what is still to be put, and whether something is there
+        self._left = None  # when the page looked elsewhere
         self._failed, self._turn, self._document = False, None, pn.state.curdoc
         self._says = words(self._waiting(), margin=AROUND)
         self.column = pn.Column(
@@ -66,8 +73,7 @@ class Place:
         self._asked = True
         if self._failed:
             self._failed = False
-            self.column.objects = [self._says]
-            self._steps[:0] = [self._begin] if self._steps else []
+            self.column.objects, self._stands = [self._says], False
         self._says.object = self._waiting()
         if self._document is None or self._document.session_context is None:  # no server, so no others
             self._add(self.fill)
@@ -78,6 +84,16 @@ class Place:
         """Its page looks elsewhere: it gives up its turn, unless that has come."""
         if self._turn is not None and self._turn.leave():
             self._turn, self._asked = None, False
+
+    def left(self):
+        """Its page looks elsewhere from now on: after a long time it gives its parts back."""
+        self._left = time.monotonic()
+        after(AWAY, partial(self._give_back, self._left))
+
+    def _give_back(self, left):
+        is_whole = self._stands and not self._steps and not self._failed
+        if is_whole and left == self._left and not self.column.visible and len(self._view.select()) > MOST:
+            self.column.objects, self._asked, self._stands = [self._says], False, False
 
     def fill(self):
         """Creates the view now. An error leaves a sentence, and creating it can be tried again."""
@@ -107,7 +123,7 @@ class Place:
         start = time.monotonic()
         try:
             if self._steps:
-                self._add(partial(self._attempt, self._steps[0], self._step_is_done))
+                self._add(partial(self._attempt, self._put))
             else:
                 with pn.io.hold():
                     self._attempt(self._create)
@@ -123,16 +139,24 @@ class Place:
 
     def _create(self):
         self._view_made()
-        self._steps = self._steps or [self._begin, *taken_apart(self._view), self._end]
+        self._steps = self._steps or taken_apart(self._view) or [lambda: None]
 
-    def _step_is_done(self):
+    def _put(self):
+        """Puts the next part, with all that goes with it: each change by itself would have all models counted."""
+        is_last = len(self._steps) == 1
+        with self._document.models.freeze():
+            if not self._stands and not is_last:
+                self._begin()
+            self._steps[0]()
+            if is_last:
+                self._end()
         del self._steps[0]
 
     def _begin(self):
-        self.column.objects = [self._view, self._says]
+        self.column.objects, self._stands = [self._view, self._says], True
 
     def _end(self):
-        self.column.objects = [self._view]
+        self.column.objects, self._stands = [self._view], True
 
     def _attempt(self, *steps):
         try:
@@ -166,6 +190,7 @@ class Rooms(param.Parameterized):
         self.room = opened if opened in makers else usual
         self.level = level
         self._places = {name: Place(name, make, add) for name, make in makers.items()}
+        self._at_once = at_once
         self._last = {}  # tab -> the room of it that was shown last
         self.columns = [place.column for place in self._places.values()]
         self._last[self.tab] = self.room
@@ -193,6 +218,8 @@ class Rooms(param.Parameterized):
 
     def _moved(self, event):
         self._last[self.tab] = self.room
+        if event.old not in self._at_once:
+            self._places[event.old].left()
         self._look()
 
     def _look(self):

@@ -9,6 +9,7 @@ import hmac
 import ipaddress
 import json
 import logging
+import math
 import re
 import secrets
 import time
@@ -24,6 +25,7 @@ CODE_LENGTH = 6
 CODE = re.compile(rf"[{LETTERS}]{{{CODE_LENGTH}}}")
 KEY = re.compile(rf"{CODE.pattern}\.[\w-]{{22}}", re.ASCII)  # the room's code, and its owner's secret
 MARK = re.compile(r"[0-9a-f]{32}", re.ASCII)  # the identifier of a phone
+LOST = ""  # in place of the text of a room whose store came back without it
 REGISTER = "rooms"  # the key of {code: [used, address]}; it cannot be a room's code
 
 EMPTY = {"votes": {}, "others": {}, "phones": {}, "shown": False}
@@ -261,5 +263,12 @@ class Rooms:
         self._use(code, *found)
 
     def look(self, codes):
-        """{code: text} of the rooms that exist; Room.of() reads a text that has changed."""
-        return self._store.read(codes)
+        """{code: text} of the rooms that exist, LOST for one that nobody closed; Room.of() reads a text that has
+        changed."""
+        texts = self._store.read([*codes, REGISTER])
+        register = texts.pop(REGISTER, None)
+        for code in {*codes} - texts.keys():
+            used, _ = json.loads(register).get(code, [-math.inf, ""]) if register else [math.inf, ""]
+            if self._clock() - used <= LASTS:
+                texts[code] = LOST
+        return texts

@@ -9,7 +9,7 @@ import time
 from functools import lru_cache
 
 from app.model.votes.ballots import Away, store
-from app.model.votes.classroom import LASTS, USED, VOTES_OF_ADDRESS, Room, Rooms
+from app.model.votes.classroom import LASTS, LOST, USED, VOTES_OF_ADDRESS, Refused, Room, Rooms
 
 LOOK_EVERY = 0.5  # s
 PAUSE = 2.0  # s for which the store is not asked again after it did not answer
@@ -48,8 +48,8 @@ class Desk:
 
     def watch(self, code, told, votes=True):
         """Calls told(Room) now and whenever the room changes (with votes=False, new votes are not told at once),
-        told(None) when it is closed, and told(Away) while the store does not answer. Returns a function that ends
-        this."""
+        told(None) when it is closed, told(Refused("lost")) when the store came back without it, and told(Away) while
+        the store does not answer. Returns a function that ends this."""
         watch = Watch(code, told, votes)
         self._watches.add(watch)
         self.ask(lambda rooms: None, lambda result: None)  # wakes the thread if it sleeps
@@ -125,8 +125,8 @@ class Desk:
 
 @lru_cache(64)
 def read(code, text):
-    """Room.of(), cached for all pages that watch the room."""
-    return Room.of(code, text)
+    """Room.of(), or Refused("lost"), cached for all pages that watch the room."""
+    return Refused("lost") if text == LOST else Room.of(code, text)
 
 
 class Watch:
@@ -143,7 +143,7 @@ class Watch:
                 self._last = away
                 self._told(away)
             return
-        if text == self._last:
+        if text == self._last or (text is None and self._last == LOST):
             return
         room = read(self.code, text)
         if not self.votes and self._waits(room):
@@ -154,7 +154,8 @@ class Watch:
     def _waits(self, room):
         """Whether only votes have changed, too soon after the last time; they will come with a later look."""
         before, early = self._room, time.monotonic() - self._when < PHONES_EVERY
-        return bool(early and room and before and (room.step, room.shown) == (before.step, before.shown))
+        both = isinstance(room, Room) and isinstance(before, Room)
+        return both and early and (room.step, room.shown) == (before.step, before.shown)
 
 
 DESK = Desk()

@@ -123,6 +123,8 @@ class Teacher:
     def _news(self, room):
         if room is None:
             self._forget(refusal("vote", Refused("over")))
+        elif isinstance(room, Refused):
+            self._forget(refusal("vote", room))
         elif isinstance(room, Away):
             self._tell(refusal("vote", room))
         else:

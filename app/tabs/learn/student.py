@@ -67,9 +67,9 @@ class Ballot:
         self._counter.ask(lambda rooms: rooms.ballot(code, mark, address), done)
 
     def _news(self, room):
-        if room is None:
+        if room is None or isinstance(room, Refused):
             self._room = None
-            self._tell(say("teach.student.closed"))
+            self._tell(refusal("student", room or Refused("closed")))
         elif self._room is None or room.step != self._room.step or (room.phones == 0 and self._room.phones):
             self._room = room
             self._come(again=False)  # for its vote on that question; in a new class it joins again

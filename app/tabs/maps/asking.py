@@ -4,13 +4,11 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 
-import panel as pn
-
 from app.model.maps.choice import FIXED
 from app.model.maps.maps import COLOURS_BY, LAWS, MOST_CELLS, MOST_SECONDS, QUANTITIES, SECONDS, Map
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, written
-from app.widgets.cards import flow, words
+from app.widgets.cards import Hidden, flow, words
 from app.widgets.forms import Field, Menu
 from app.widgets.numbers import typed_number
 
@@ -40,7 +38,7 @@ class Settings:
         shows = {f"{side}_{end}": say(f"maps.{end}") for side in SIDES for end in LIMITS}
         shows |= {name: say(f"maps.{name}") for name in ("seconds", "cells")}
         self.entries = {name: Field(says, shows=shows.get(name, "")) for name, says in spoken.items()}
-        self.deep = self._deep()
+        self.deep = Hidden(self._deep)
         self.show(asked, colour, place)
         for name, select in self.choices.items():
             select.on("value", partial(self._chosen, name))
@@ -59,7 +57,7 @@ class Settings:
                        *(entry[f"{side}_{end}"] for end in LIMITS), margin=(4, 0))
                   for side in SIDES]  # fmt: skip
         rows = [*ranges, flow(*(entry[name] for name in FIXED)), flow(*(entry[name] for name in ("seconds", "cells")))]
-        return pn.Column(flow(self.choices["law"]), *rows, sizing_mode="stretch_width", margin=0)
+        return [flow(self.choices["law"]), *rows]
 
     @property
     def place_view(self):

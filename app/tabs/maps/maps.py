@@ -3,6 +3,7 @@
 import time
 from dataclasses import replace
 from functools import partial
+from itertools import zip_longest
 
 import panel as pn
 
@@ -45,7 +46,7 @@ ROOM = """
 """
 ANSWER = "@media (max-width: 899px) { .answer { order: -1 } }"
 CLOSER = 3  # how much smaller the range is then
-KINDS_OF, WHY = 3, 3  # kinds of disagreement, and the reasons for each that are shown
+WHY = 3  # reasons for each kind of disagreement that are shown
 
 
 class Maps:
@@ -65,10 +66,8 @@ class Maps:
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
-        self.run_says, self.whys = (
-            words(margin=(6, 0), css_classes=["answer"]),
-            [words() for _ in range(KINDS_OF * WHY)],
-        )
+        self.run_says = words(margin=(6, 0), css_classes=["answer"])
+        self.disagree = pn.Column(sizing_mode="stretch_width", margin=0)  # what is said, and a button for each
         self.map, self.curve = MapFigure(self._by_hand), RunFigure()
         self.stage = map_stage()
         self.steady = Steady(self._runs)
@@ -77,8 +76,6 @@ class Maps:
         self.whole = Button(say("maps.whole"), lambda: self.settings.look_at(*self._usual_spans()))
         self.thrown = Button(say("maps.throw"), lambda: self._to_lab(self.choice.place, look=True), kind="primary",
                              visible=False)  # fmt: skip
-        self.shows = [Button(say("maps.show_one"), partial(self._show_one, i), kind="link", visible=False)
-                      for i in range(len(self.whys))]  # fmt: skip
         self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
         self.files = [
             Download(self._runs, lambda: (self.level, self.choice.colour), partial(_file, kind), label=kind.upper(),
@@ -99,10 +96,9 @@ class Maps:
                  words(note(say("maps.hint")))]  # fmt: skip
         below = [self.worst, *self.steady.view, words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)),
                  flow(*self.files), self.python]  # fmt: skip
-        whys = [part for pair in zip(self.whys, self.shows, strict=True) for part in pair]
         beside = [self.stage, self.run_says, _figure(self.curve.figure),
                  words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown,
-                 self.key, *whys, *self.settings.view]  # fmt: skip
+                 self.key, self.disagree, *self.settings.view]  # fmt: skip
         parts = [pn.Column(*content, margin=0, sizing_mode="stretch_width", styles=PART, css_classes=[name],
                            stylesheets=[ANSWER])
                  for content, name in ((above, "above"), (beside, "run"), (below, "below"))]  # fmt: skip
@@ -187,10 +183,9 @@ class Maps:
         self.names.object = note(f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}")
         self.python.text = python(asked)
         self.map.begin(asked)
-        for said in (self.key, self.worst, *self.whys):  # they belong to the previous map
+        for said in (self.key, self.worst):  # they belong to the previous map
             said.object = ""
-        for button in self.shows:
-            button.visible = False
+        self.disagree.objects = []
         self._run = Run(partial(self._work, asked), partial(self._done, asked))
         known = recall(asked)
         self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)
@@ -252,11 +247,12 @@ class Maps:
             self._show(level)
             self.said.object = ""
             self.worst.object = note(of_worst(level))
-            for i, (why, button) in enumerate(zip(self.whys, self.shows, strict=True)):
-                button.visible = i < len(told_of)
-                why.object = of_reason(*told_of[i], asked) if button.visible else ""
-            self.whys[0].object = (f"<h2>{say('maps.disagree')}</h2>" + self.whys[0].object if told_of
-                                   else note(say("maps.agree")))  # fmt: skip
+            says = [words(of_reason(*each, asked)) for each in told_of] or [words(note(say("maps.agree")))]
+            shows = [Button(say("maps.show_one"), partial(self._show_one, i), kind="link") for i in range(len(told_of))]
+            self.disagree.objects = [
+                *([words(f"<h2>{say('maps.disagree')}</h2>")] if told_of else []),
+                *(part for pair in zip_longest(says, shows) for part in pair if part is not None),
+            ]
 
     # ---- one run ----
 

@@ -1,7 +1,19 @@
 """Level of a map -> Bokeh: an image of its cells, hatching of mixed cells, lines of closed forms, the bead."""
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine, Quad, Range1d, Scatter, Segment, Span
+from bokeh.models import (
+    BoxAnnotation,
+    ColumnDataSource,
+    ImageRGBA,
+    Label,
+    Line,
+    MultiLine,
+    Quad,
+    Range1d,
+    Scatter,
+    Segment,
+    Span,
+)
 from bokeh.palettes import Viridis256
 from scipy.ndimage import distance_transform_edt
 
@@ -34,7 +46,7 @@ class MapFigure:
         empty = {"image": [], "x": [], "y": [], "w": [], "h": []}
         self.coarse, self.fine = ColumnDataSource(empty), ColumnDataSource(empty)
         for source in (self.coarse, self.fine):
-            fig.image_rgba("image", x="x", y="y", dw="w", dh="h", source=source)
+            draw(fig, ImageRGBA, "x", "y", image="image", dw="w", dh="h", source=source)
         self.mixed = ColumnDataSource({"left": [], "right": [], "bottom": [], "top": []})
         self._hatch = draw(fig, Quad, left="left", right="right", bottom="bottom", top="top", source=self.mixed,
                            fill_alpha=0, line_color=None, hatch_pattern="right_diagonal_line", hatch_color=DARK,

@@ -15,7 +15,7 @@ from app.model.maps.steady import at_place, bifurcation, spins_of
 from app.model.runs import MAPS, Run, Stopped
 from app.tabs.maps.words import unit_of
 from app.text import listed, say, told
-from app.widgets.cards import alert, note, words
+from app.widgets.cards import Hidden, alert, note, words
 from app.widgets.failure import ended
 from app.widgets.plots import draw, plain
 from tippe_core import TopError
@@ -53,16 +53,8 @@ class Steady:
             draw(fig, Line, "x", "y", source=source, line_color=ACCENT, line_width=1, line_alpha=0.6)
             draw(fig, Scatter, "x", "y", source=source, marker=marker, size=7, fill_color=None, line_color=ACCENT)
         draw(fig, Line, "x", "y", source=self.here, line_color=ACCENT, line_width=1.5)
-        self.grow, self.turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)
-        self.branches = {}
-        for name, colour in COLOURS.items():
-            line, runs = ColumnDataSource({"x": [], "growth": [], "turning": []}), ColumnDataSource({"x": [], "y": []})
-            draw(self.grow, Line, "x", "growth", source=line, line_color=colour, line_width=2)
-            draw(self.turn, Line, "x", "turning", source=line, line_color=colour, line_width=2)
-            draw(self.grow, Scatter, "x", "y", source=runs, size=6, fill_color=colour, line_color=INK)
-            self.branches[name] = line, runs
-
-        self.deep = self._deep()
+        self.pair, self.branches, self._small = (), {}, None  # the figures of growth and turning, once they are shown
+        self.deep = Hidden(self._deep)
 
     @property
     def view(self):
@@ -70,13 +62,22 @@ class Steady:
 
     def _deep(self):
         """What is open at the level Research: the rates, and the tables of scaling."""
-        pair = pn.Row(*(_pane(fig, flex="1 1 240px") for fig in (self.grow, self.turn)), margin=0,
-                      styles={"display": "flex", "flex-flow": "row wrap"}, sizing_mode="stretch_width")  # fmt: skip
+        self.pair = grow, turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)
+        for name, colour in COLOURS.items():
+            line, runs = ColumnDataSource({"x": [], "growth": [], "turning": []}), ColumnDataSource({"x": [], "y": []})
+            draw(grow, Line, "x", "growth", source=line, line_color=colour, line_width=2)
+            draw(turn, Line, "x", "turning", source=line, line_color=colour, line_width=2)
+            draw(grow, Scatter, "x", "y", source=runs, size=6, fill_color=colour, line_color=INK)
+            self.branches[name] = line, runs
+        for fig in self.pair:
+            fig.x_range.update(start=self.bends.x_range.start, end=self.bends.x_range.end)
+        self._draw_rates()
+        row = pn.Row(*(_pane(fig, flex="1 1 240px") for fig in self.pair), margin=0,
+                     styles={"display": "flex", "flex-flow": "row wrap"}, sizing_mode="stretch_width")  # fmt: skip
         named = listed("maps.branches")
         key = "".join(f'<span style="color: {OF_KEY.get(colour, colour)}">■</span> {named[name]} &emsp; '
                       for name, colour in COLOURS.items())  # fmt: skip
-        return pn.Column(self.rates_title, words(note(key)), pair, self.laws, self.powers,
-                         sizing_mode="stretch_width", margin=0)  # fmt: skip
+        return [self.rates_title, words(note(key)), row, self.laws, self.powers]
 
     def show(self, asked, place):
         """Computes and draws the results for the bead at a place of a Map."""
@@ -90,7 +91,7 @@ class Steady:
         self._key = key
         if not self._drawn:  # else the figures still show the previous place
             self.title.object = _title(x)
-            for fig in (self.bends, self.grow, self.turn):
+            for fig in (self.bends, *self.pair):
                 fig.x_range.update(**dict(zip(("start", "end"), spins_of(asked), strict=True)))
         self.says.object = note(say("maps.steady.waits"))
         work = Run(lambda run: (bifurcation(asked, place, run.look), rates(asked, place, run.look)),
@@ -113,10 +114,11 @@ class Steady:
                 raise result
             return
         found, small = result
+        self._small = small
         with pn.io.hold():
             self._drawn, self.title.object = True, _title(x)
             self._draw(found)
-            self._draw_rates(small)
+            self._draw_rates()
             self.says.object = of_life(found)
             first, second = found.times
             self.key.object = note(say("maps.steady.key", first=first, second=second))
@@ -124,7 +126,7 @@ class Steady:
 
     def _clear(self):
         """Clears the results of the previous place."""
-        self._drawn = False
+        self._drawn, self._small = False, None
         for said in (self.rates_title, self.key, self.laws, self.powers):
             said.object = ""
         for source in (self.lines, *self.dots, *self.sweeps, self.life, *sum(self.branches.values(), ())):
@@ -141,16 +143,20 @@ class Steady:
         inside = found.life.spin >= found.spin[0]
         self.life.data = {"x": np.where(inside, found.life.spin, np.nan), "y": found.life.theta}
 
-    def _draw_rates(self, small):
+    def _draw_rates(self):
+        small = self._small
+        if not self.pair or small is None:
+            return
         self.rates_title.object = f"<h2>{say('maps.steady.rates')}</h2>"
         for branch in small.branches:
             line, runs = self.branches[branch.name]
             line.data = {"x": branch.spin, "growth": branch.growth, "turning": branch.turning / (2 * np.pi)}
             runs.data = {"x": branch.run_spin, "y": branch.run_growth}
-            for fig in (self.grow, self.turn):
+            for fig in self.pair:
                 fig.x_range.update(start=float(branch.spin[0]), end=float(branch.spin[-1]))
-        for fig, rows in ((self.grow, [(b.growth, b.run_growth) for b in small.branches]),
-                          (self.turn, [(b.turning / (2 * np.pi),) for b in small.branches])):  # fmt: skip
+        of_figures = ([(b.growth, b.run_growth) for b in small.branches],
+                      [(b.turning / (2 * np.pi),) for b in small.branches])  # fmt: skip
+        for fig, rows in zip(self.pair, of_figures, strict=True):
             seen = np.concatenate([np.zeros(1), *(np.ravel(row) for rows_ in rows for row in rows_)])
             seen = seen[np.isfinite(seen)]
             room = 0.06 * (np.ptp(seen) or 1.0)

@@ -13,6 +13,7 @@ from bokeh.models import (
     Range1d,
     Scatter,
     Span,
+    VArea,
     Whisker,
 )
 
@@ -166,8 +167,9 @@ def constants(kept):
         fig.update(sizing_mode="stretch_width", height=150, min_border_left=LEFT)
         fig.xgrid.visible = False
         t, values, errors = constant.t, constant.values, constant.errors
-        fig.varea(t, values - errors, values + errors, fill_color=colour, fill_alpha=0.2)
-        fig.line(t, values, line_color=colour, line_width=1.5)
+        found = ColumnDataSource({"t": t, "low": values - errors, "y": values, "high": values + errors})
+        draw(fig, VArea, "t", y1="low", y2="high", source=found, fill_color=colour, fill_alpha=0.2)
+        draw(fig, Line, "t", "y", source=found, line_color=colour, line_width=1.5)
         mean, _ = constant.mean
         fig.add_layout(Span(location=mean, dimension="width", line_color=INK, line_dash=[6, 4]))
         middle, half = mean, max(1.2 * float(np.abs(values - mean).max() + errors.max()), 0.1 * abs(mean))

@@ -1,12 +1,10 @@
 """What can be taken home of a fit: files, and the data in the page's link."""
 
-import panel as pn
-
 from app.model.measured.film import packed
 from app.model.measured.report import program, residuals_table
 from app.tabs.measure.report import report
 from app.text import say
-from app.widgets.cards import flow, note, words
+from app.widgets.cards import Hidden, flow, note, words
 from app.widgets.download import Download
 from app.widgets.forms import Checks
 
@@ -21,8 +19,7 @@ class Home:
         self.in_link = Checks(options={say("measure.in_link"): "link"}, margin=(4, 0))
         self.in_link.on("value", lambda event: self._put_in_link())
         self.of_link = words()
-        self.view = pn.Column(flow(*self._downloads(runs)), self.in_link, self.of_link, sizing_mode="stretch_width",
-                              margin=0, visible=False)  # fmt: skip
+        self.view = Hidden(lambda: [flow(*self._downloads(runs)), self.in_link, self.of_link])
 
     def show(self, film, *fit):
         """Offers this fit."""
