@@ -31,6 +31,12 @@ text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc el
 TOUR = room.FIRST, LEVELS[1]
 
 
+class Plain(Design):
+    """Panel's parts without the style sheets of a theme. A Column's button, which scrolls, takes a place of its own."""
+
+    modifiers = {pn.Column: {"stylesheets": [".scroll-button { display: none }"]}}  # noqa: RUF012  (Panel's own)
+
+
 class PageLanguage(param.Parameterized):
     """The language of the page; for another one the page is loaded again, with its state."""
 
@@ -104,7 +110,7 @@ def tells(head, rooms, session):
 
 def show():
     """Puts the page into the document that is being served."""
-    pn.extension(design=Design, respect_explicit_sizing=True)  # without any style sheet of a theme
+    pn.extension(design=Plain, respect_explicit_sizing=True)
     page().servable(title=say("main.title"))
     document = pn.state.curdoc
     document.template = first.TEMPLATE

@@ -16,14 +16,10 @@ STAGED = """
 }
 """
 MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
-UNROLLED = ".scroll-button { display: none !important }"  # Panel's, which takes a place of its own
-SIDE = (
-    UNROLLED
-    + """
+SIDE = """
 :host { display: contents }
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 24px } }
 """
-)
 IN_SIGHT = "@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }"
 # The card with the stage. On a narrow page it stays in sight below the head; otherwise it is as high as the cards
 # below it, which stay in sight too, allow.
@@ -118,7 +114,6 @@ def grid(*cards, narrowest=480):
             "gap": "24px",
             "padding": "12px 24px 24px",
         },
-        stylesheets=[UNROLLED],
     )
 
 
@@ -137,7 +132,7 @@ def staged(stage, others, mirrored=False):
         pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]),
         pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
     ]
-    sheets = [UNROLLED, STAGED, *([MIRRORED] if mirrored else [])]
+    sheets = [STAGED, *([MIRRORED] if mirrored else [])]
     return pn.Column(*sides[:: -1 if mirrored else 1], sizing_mode="stretch_width", margin=0, stylesheets=sheets)
 
 
@@ -158,5 +153,4 @@ def flexible(*cards):
         "padding": "12px 24px 24px",
         "align-items": "start",
     }
-    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles,
-                     stylesheets=[UNROLLED])  # fmt: skip
+    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)

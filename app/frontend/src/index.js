@@ -37,6 +37,7 @@ import { renderPainted } from "./widgets/painted.js";
 import { renderPaper } from "./widgets/paper.js";
 import { renderPhone } from "./widgets/phone.js";
 import { renderShareHead } from "./widgets/share_head.js";
+import { renderSection } from "./widgets/section.js";
 import { renderSymbols } from "./widgets/symbols.js";
 import { renderTopsMap } from "./widgets/tops_map.js";
 import { renderSaid } from "./widgets/said.js";
@@ -77,6 +78,7 @@ export default {
   PlaneView: { render: renderPlane },
   Photo: { render: renderPhoto },
   Said: { render: renderSaid },
+  SectionView: { render: renderSection },
   Steps: { render: renderSteps },
   ShareHead: { render: renderShareHead },
   Stretch: { render: renderStretch },

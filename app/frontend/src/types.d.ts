@@ -92,6 +92,12 @@ interface SurfaceModel extends Model {
   picked: [K_J: number, theta: number] | [];
 }
 
+interface SectionModel extends Model {
+  state: string;
+  hand: [name: string, x: number, z: number] | [];
+  tapped: [count: number, name: string, x: number, z: number] | [];
+}
+
 interface PlaneModel extends Model {
   state: string;
   motion: Bytes;

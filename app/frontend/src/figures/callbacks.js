@@ -4,11 +4,10 @@ import { moveLines, nameFigure } from "./common.js";
 import { followFilm, pullFilm } from "./measured.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
 import { followSpans, followWell } from "./run.js";
-import { pressSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
 
 const callbacks = {
-  followCurve, followFilm, followSpans, followWell, keepFinger, moveBead, moveLines, nameFigure, pressSection, pullBead, pullFilm,
+  followCurve, followFilm, followSpans, followWell, keepFinger, moveBead, moveLines, nameFigure, pullBead, pullFilm,
   seekAlong, seekOnCurve,
 };
 

@@ -72,8 +72,9 @@ class Top {
     model.on("profile", () => this.newProfile());
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
     if (this.measured) model.on("measured", () => this.newMeasured());
-    for (const name of ["before", "azimuth"]) model.on(name, () => this.ghost?.show(model.before ?? null, model.azimuth));
-    model.on("azimuth", onFrames);
+    const { ghost } = this;
+    if (ghost) for (const name of ["before", "azimuth"]) model.on(name, () => ghost.show(model.before ?? null, model.azimuth));
+    if (ghost) model.on("azimuth", onFrames);
     const onHighlight = ({ detail }) => {
       this.highlight = detail;
       this.scene.pointedTip.element.textContent = detail?.label ?? "";
