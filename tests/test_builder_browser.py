@@ -56,8 +56,8 @@ def drag(page, name, across, up):
         return places[-2:-1] == places[-1:]
 
     wait(page, rests)  # another body has another scale, which comes a moment later
-    box, O = places[-1], page.locator("[data-figure=section] circle.dashed").first  # noqa: N806  (the paper's)
-    scale = float(O.get_attribute("r")) / page.evaluate(f"{SHOWN}.R")
+    box, ball = places[-1], page.locator("[data-figure=section] circle.dashed").first
+    scale = float(ball.get_attribute("r")) / page.evaluate(f"{SHOWN}.R")
     here = np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
     page.mouse.move(*here)
     page.mouse.down()

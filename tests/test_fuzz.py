@@ -51,8 +51,8 @@ SPECIAL = (
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
 HANDS = ("NumberControls", "Field", "Menu", "Choice", "Checks", "Stretch", "TextFile", "Head", "Painted",
-         "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "Moments", "Range1d", "ColumnDataSource", "Location",
-         "Button")  # fmt: skip
+         "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "Moments", "Range1d", "ColumnDataSource",
+         "Location", "Button")  # fmt: skip
 
 
 def value(draw):

@@ -51,8 +51,10 @@ def page():
     texts, sentence = read(search)  # in this language
     failed = failure()
     look = Look(width=0, height=0, margin=0)
+    unseen = {"width": 0, "height": 0, "margin": 0}
+    framed = [Frame(**unseen)] if texts.get(FRAME) == "1" else []
     if VOTE in texts:  # the link of a student
-        return whole(student_page(texts[VOTE]), look, failed)
+        return whole(*framed, student_page(texts[VOTE]), look, failed)
     session = Session(texts, sentence, lambda **where: rooms.param.update(**where), room.level(texts))
     scheduler, url_state = session.scheduler, session.url_state
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
@@ -75,11 +77,9 @@ def page():
     toured = lambda *events: setattr(guide, "tour", (rooms.room, rooms.level) == TOUR)  # noqa: E731
     rooms.param.watch(toured, ["room", "level"])
     toured()
-    unseen = {"width": 0, "height": 0, "margin": 0}
     lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
     around = [look, guide, scheduler.painted, lost, Symbols(**unseen), failed]
-    above = Frame(**unseen) if texts.get(FRAME) == "1" else head.view
-    return whole(above, *share.main, *around, *rooms.columns)
+    return whole(*(framed or [head.view]), *share.main, *around, *rooms.columns)
 
 
 def whole(*parts):

@@ -2,10 +2,9 @@
 
 import panel as pn
 
-from app.model.colours import ACCENT
 from app.widgets.typeset import typeset
 
-LINK = f"color-mix(in srgb, {ACCENT} 60%, var(--ink, #22303c))"  # legible on light and on dark
+LINK = "color-mix(in srgb, var(--link) 60%, var(--ink))"  # legible on light and on dark
 # The stage beside the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 STAGED = """
@@ -31,26 +30,26 @@ FIRST = """
 # A name, a note, and an error, wherever they are.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
-.name sub { font-size: 0.8em } .note { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+.name sub { font-size: 0.8em } .note { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
 .alert { font-weight: 500 }
 .alert::before { content: "!" / ""; display: inline-grid; place-items: center; width: 1.5em; height: 1.5em;
-  margin-right: 6px; border-radius: 50%; background: var(--ink, #22303c); color: var(--card, white) }
+  margin-right: 6px; border-radius: 50%; background: var(--ink); color: var(--card) }
 .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
 .name[title], .note [title] { cursor: help }
 """
 TYPE = """
-:host { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #22303c) }
+:host { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink) }
 h2 { font-size: calc(14px * var(--type, 1)); margin: 0; font-weight: 600 }
 i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
-.key { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+.key { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
 .key span { white-space: nowrap } [title] { cursor: help }
 .axis { text-align: center } b { font-weight: 600 }
 .quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
 .swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
 progress { appearance: none; width: min(100%, 240px); height: 6px; border: 0; border-radius: 3px; overflow: hidden;
-  background: var(--rule, #d8dce0) } progress::-webkit-progress-bar { background: var(--rule, #d8dce0) }
-progress::-webkit-progress-value { background: var(--ink, #22303c) }
-progress::-moz-progress-bar { background: var(--ink, #22303c) }
+  background: var(--rule) } progress::-webkit-progress-bar { background: var(--rule) }
+progress::-webkit-progress-value { background: var(--ink) }
+progress::-moz-progress-bar { background: var(--ink) }
 a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
 """.replace("LINK", LINK) + NOTES  # fmt: skip
 

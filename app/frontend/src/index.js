@@ -17,6 +17,7 @@ import { timeOf, topsOf } from "./motion/clock.js";
 import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { site } from "./site.js";
+import { wear } from "./tokens.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
@@ -44,6 +45,7 @@ import { renderSaid } from "./widgets/said.js";
 import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
+wear(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"); // until look.js knows what a person chose
 window.__tippe = { time: timeOf, tops: topsOf }; // for tests only: there before any component is
 
 // Panel finds a component by the name of its Python class.

@@ -63,6 +63,7 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   label: string;
   clock: string;
   a: number | null;
+  bare?: boolean; // without a bar of its own
   tiltable: boolean;
   tilted: [theta: number, t: number, grasp: number, azimuth?: number] | [];
   azimuth?: number; // rad: as of Frames

@@ -4,13 +4,12 @@ import html
 
 import numpy as np
 
-from app.model.colours import COLOURS, FAINT, INK
 from app.text import say, written
 
 WIDTH = 480  # px: that of the column on a wide page; on a phone the letters are enlarged, as the figure shrinks
 LETTERS = "svg { font-size: 12px } @media (max-width: 700px) { svg { font-size: 16px } }"
-LINE, PALE, RULE = f"var(--ink, {INK})", f"var(--faint, {FAINT})", "var(--rule, #e7ebef)"
-SHEET = "color-mix(in srgb, #9a7434 26%, var(--card, #fff))"
+LINE, PALE, RULE = "var(--ink)", "var(--outline)", "var(--rule)"
+SHEET = "color-mix(in srgb, #9a7434 26%, var(--card))"
 
 
 def letters(letter, below=""):
@@ -20,7 +19,7 @@ def letters(letter, below=""):
 
 
 K_J, F_Z, THETA = letters("K", "J"), letters("F", "z"), letters("θ")
-HALO = f'paint-order="stroke" stroke="var(--card, white)" stroke-width="4" fill="{LINE}"'
+HALO = f'paint-order="stroke" stroke="var(--card)" stroke-width="4" fill="{LINE}"'
 ROOM = 1.1  # rad: room for a name
 DASHED = 'stroke-dasharray="6 4"'
 # Fig. 5 as a drawing: how far the K_J axis runs back and up, relative to width and height of the picture
@@ -95,9 +94,9 @@ def waterfall(shown, end, most):
                      closed=True)  # fmt: skip
     drawing.path(*place(shown.lift.theta_steady, shown.part), pen(LINE, 1.5, DASHED))
     lifts = np.where(np.isfinite(shown.lift.E), shown.lift.theta_outer, np.nan)
-    drawing.path(*place(lifts, shown.part), pen(COLOURS["normal"]))
+    drawing.path(*place(lifts, shown.part), pen("var(--normal)"))
     drawing.text(*place(0, 0.5), K_J, 'text-anchor="end" font-size="1.15em"', shift=(-8, 0))
-    drawing.text(*place(end, 0), THETA, 'font-size="1.15em"', shift=(4, 14))
+    drawing.text(*place(end, 0), THETA, 'font-size="1.15em"', shift=(24, 17))
     return drawing.svg
 
 
@@ -123,7 +122,7 @@ def plane(shown, mu_s):
     gap = np.full(len(part), np.nan)
     drawing.path(np.c_[first, last, gap].ravel(), np.repeat(part, 3), pen(LINE, 1, 'stroke-opacity="0.55"'))
     lifts = np.where(np.isfinite(lift.E), right, np.nan)
-    drawing.path(lifts, part, pen(COLOURS["normal"], 2))
+    drawing.path(lifts, part, pen("var(--normal)", 2))
     drawing.path(slip.theta_verge, part, pen(LINE))
     drawing.path(steady, part, pen(LINE, 1.5, DASHED))
     beyond = np.fmax(np.fmax(right, last), steady)

@@ -47,7 +47,7 @@ class Top {
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
     this.impulse = model.pushes ? new Impulse(stage, this.scene) : null;
     this.flick = model.flick && this.impulse ? new Flick(stage, this.scene, this.player, model.flick, this.impulse) : null;
-    this.bar = new Bar(root, picture, model, this.player, () => {
+    this.bar = model.bare ? null : new Bar(root, picture, model, this.player, () => {
       model.camera = [];
       this.look();
     });
@@ -132,7 +132,7 @@ class Top {
       verdict.textContent = word;
       verdict.style.setProperty("--verdict", colour);
     }
-    this.bar.update(this.model.seconds);
+    this.bar?.update(this.model.seconds);
     this.place.say(word);
   }
 
