@@ -15,24 +15,10 @@ from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
 
 pytestmark = pytest.mark.served
 
-# Where a point of a figure, in its own coordinates, is on the screen.
-PLACE = """
-([figure, x, y]) => {
-  const queue = [...Bokeh.index.roots]
-  while (queue.length) {
-    const view = queue.pop()
-    if (view.model.name == figure && view.frame) {
-      const {left, top} = view.canvas_view.el.getBoundingClientRect()
-      return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(y)]
-    }
-    queue.push(...view.child_views ?? [])
-  }
-}
-"""
 MODELS = "[...Bokeh.documents[0]._all_models.values()]"
+SHOWN = f"JSON.parse({MODELS}.find((m) => m.attributes.data?.attributes?.tapped).data.state)"
 # The greatest height of the body that the section shows, in mm.
-SECTION = f"""() => Math.max(...({MODELS}.find((m) => m.name == "section" && m.renderers)
-  ?.renderers[0].data_source.data.z ?? []))"""
+SECTION = f"() => Math.max(...({SHOWN}.parts?.body[0] ?? []).map(([, z]) => z))"
 # The greatest height above O of the body that is turned in 3-D, in R.
 DRAWN = f"""() => {{
   const profile = {MODELS}.find((m) => m.attributes.data?.attributes?.profile)?.data.profile ?? []  // it comes later
@@ -60,18 +46,23 @@ def choose(page, preset):
     is_drawn(page, preset.shape)
 
 
-def drag(page, start, end):
-    page.locator("[data-figure=section]").first.evaluate(IN_SIGHT)
+def drag(page, name, across, up):
+    """Pulls a ring of the section so many mm."""
+    ring, places = page.locator(f"[data-name='{name}'] .ring"), []
+    page.locator("[data-figure=section]").evaluate(IN_SIGHT)
 
-    def places():
-        return [page.evaluate(PLACE, ["section", *place]) for place in (start, end)]
+    def rests():
+        places.append(ring.bounding_box())
+        return places[-2:-1] == places[-1:]
 
-    wait(page, lambda: places() == places())  # another body has another scale, which comes a moment later
-    here, there = places()
+    wait(page, rests)  # another body has another scale, which comes a moment later
+    box, ball = places[-1], page.locator("[data-figure=section] circle.dashed").first
+    scale = float(ball.get_attribute("r")) / page.evaluate(f"{SHOWN}.R")
+    here = np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
     page.mouse.move(*here)
     page.mouse.down()
     for share in (0.3, 0.6, 1.0):
-        page.mouse.move(*(np.array(here) * (1 - share) + np.array(there) * share), steps=3)
+        page.mouse.move(*(here + share * scale * np.array([across, -up])), steps=3)
     page.mouse.up()
 
 
@@ -96,15 +87,27 @@ def section_and_top_stand_side_by_side(page):
 
 def a_dragged_handle_changes_number_section_and_the_top_in_3d(page):
     """The end of the stem, from l = 19.2 to 12 mm."""
-    drag(page, (0, 27.4), (0, 20.2))
+    drag(page, "l", 0, -7.2)
     page.wait_for_function(f"() => Math.abs(({SECTION})() - 20.2) < 0.5")
     expect(page.locator(".toy option:checked")).to_have_text("Your own top")
     top = load_top(saved(page))
     assert top.l == pytest.approx(0.012, abs=5e-4)
-    assert page.evaluate(SECTION) == pytest.approx(1e3 * (top.c + top.l), abs=1e-9)
+    assert page.evaluate(SECTION) == pytest.approx(1e3 * (top.c + top.l), abs=1e-3)
     number(page, f"= {top.top.a:.4f}")
     assert f"{1e3 * top.l:.6g}" in texts(page)
     page.wait_for_function(f"z => Math.abs(({DRAWN})() - z) < 1e-6", arg=(top.c + top.l) / top.R)
+
+
+def a_ring_goes_on_with_the_arrow_keys_and_says_so(page):
+    """As many tenths of a millimetre as keys, and the focus stays."""
+    ring = page.locator("[data-name=l]")
+    before = load_top(saved(page)).l
+    ring.focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowUp")
+    expect(ring).to_have_attribute("aria-valuetext", f"{1e3 * before + 0.5:.6g} mm")
+    expect(ring).to_be_focused()
+    assert load_top(saved(page)).l == pytest.approx(before + 5e-4, abs=1e-9)
 
 
 def a_bad_file_changes_nothing_and_one_that_was_saved_is_loaded(page, text):
@@ -136,8 +139,7 @@ def a_hole_and_a_disc_are_chosen_and_dragged_and_are_in_the_link(page):
     page.wait_for_function("Bokeh.documents[0].is_idle")
     first = load_top(saved(page))
     assert inside(first) == "both"
-    middle = 1e3 * (first.c - first.depth / 2)
-    drag(page, (-1e3 * first.hole, middle), (-12, middle))
+    drag(page, "hole", 1e3 * first.hole - 12, 0)
     page.wait_for_function("Math.abs(new URLSearchParams(location.search).get('body').split('_')[7] - 0.012) < 3e-4")
     top = load_top(saved(page))
     assert top.hole == pytest.approx(0.012, abs=3e-4) and (top.depth, top.disc) == (first.depth, first.disc)
@@ -159,6 +161,7 @@ def test_a_top_is_built_saved_and_loaded(server, chromium, tmp_path):
         section_and_top_stand_side_by_side(page)
         choose(page, PAPERS)
         a_dragged_handle_changes_number_section_and_the_top_in_3d(page)
+        a_ring_goes_on_with_the_arrow_keys_and_says_so(page)
         choose(page, PAPERS)
         assert saved(page).decode() == save_top(TruncatedSphere.paper())
         a_hole_and_a_disc_are_chosen_and_dragged_and_are_in_the_link(page)

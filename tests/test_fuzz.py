@@ -51,8 +51,8 @@ SPECIAL = (
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
 HANDS = ("NumberControls", "Field", "Menu", "Choice", "Checks", "Stretch", "TextFile", "Head", "Painted",
-         "Top3D", "Surface3D", "PlaneView", "LabView", "Moments", "Range1d", "ColumnDataSource", "Location",
-         "Button")  # fmt: skip
+         "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "Moments", "Range1d", "ColumnDataSource",
+         "Location", "Button")  # fmt: skip
 
 
 def value(draw):
@@ -213,6 +213,7 @@ GOOD_OF = {
     ("Head", "asked"): [7, "table", "rough"],
     ("LabView", "asked"): [7, "tilt", 5.0],
     ("PlaneView", "hand"): ["line", 0.5, 6.5],
+    ("SectionView", "hand"): ["R", 10.6, -10.6],
     ("LessonView", "asked"): [7, "section", "theorists"],
 }
 
@@ -391,7 +392,8 @@ POINT = {"sx": 1, "sy": 1, "x": 0.5, "y": 0.5, "modifiers": {"type": "map", "ent
 @pytest.mark.parametrize("said, why", [
     (event("tap", "p1", **POINT | {"x": "far"}), "'x'"), (event("tap", "p1", **POINT | {"x": None}), "'x'"),
     (event("tap", "p1", sx=1, sy=1, x=0), "missing"), (event("tap", "p1", **POINT | {"more": 0}), "'more'"),
-    (event("tap", "nobody", **POINT), "no part"), (event("pan", "p1", **POINT), "hears"),
+    (event("tap", "nobody", **POINT), "no part"), (event("doubletap", "p1", **POINT), "hears"),
+    (event("pan", "p1", **POINT), "'pan'"),
     (event("nonsense", "p1"), "'nonsense'"), (event("document_ready", "p1"), "'model'"),
     (event("dom_event", "p2", node="click", data=None), "'dom_event'"),
     (event("data_event", "p2", data={"a": 1}), "no message"),

@@ -31,6 +31,12 @@ text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc el
 TOUR = room.FIRST, LEVELS[1]
 
 
+class Plain(Design):
+    """Panel's parts without the style sheets of a theme. A Column's button, which scrolls, takes a place of its own."""
+
+    modifiers = {pn.Column: {"stylesheets": [".scroll-button { display: none }"]}}  # noqa: RUF012  (Panel's own)
+
+
 class PageLanguage(param.Parameterized):
     """The language of the page; for another one the page is loaded again, with its state."""
 
@@ -45,8 +51,10 @@ def page():
     texts, sentence = read(search)  # in this language
     failed = failure()
     look = Look(width=0, height=0, margin=0)
+    unseen = {"width": 0, "height": 0, "margin": 0}
+    framed = [Frame(**unseen)] if texts.get(FRAME) == "1" else []
     if VOTE in texts:  # the link of a student
-        return whole(student_page(texts[VOTE]), look, failed)
+        return whole(*framed, student_page(texts[VOTE]), look, failed)
     session = Session(texts, sentence, lambda **where: rooms.param.update(**where), room.level(texts))
     scheduler, url_state = session.scheduler, session.url_state
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
@@ -69,11 +77,9 @@ def page():
     toured = lambda *events: setattr(guide, "tour", (rooms.room, rooms.level) == TOUR)  # noqa: E731
     rooms.param.watch(toured, ["room", "level"])
     toured()
-    unseen = {"width": 0, "height": 0, "margin": 0}
     lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
     around = [look, guide, scheduler.painted, lost, Symbols(**unseen), failed]
-    above = Frame(**unseen) if texts.get(FRAME) == "1" else head.view
-    return whole(above, *share.main, *around, *rooms.columns)
+    return whole(*(framed or [head.view]), *share.main, *around, *rooms.columns)
 
 
 def whole(*parts):
@@ -104,7 +110,7 @@ def tells(head, rooms, session):
 
 def show():
     """Puts the page into the document that is being served."""
-    pn.extension(design=Design, respect_explicit_sizing=True)  # without any style sheet of a theme
+    pn.extension(design=Plain, respect_explicit_sizing=True)
     page().servable(title=say("main.title"))
     document = pn.state.curdoc
     document.template = first.TEMPLATE

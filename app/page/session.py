@@ -39,7 +39,7 @@ TABS = {"learn": ("learn",), "lab": (room.FIRST,), "build": ("build-a-top",), "m
 
 
 BESIDE = """
-:host { min-height: max-content } .scroll-button { display: none !important }
+:host { min-height: max-content }
 @media (min-width: 1200px) {
   :host { display: grid; align-items: start; grid-template-columns: var(--columns); --stays: var(--beside) }
 }

@@ -122,6 +122,7 @@ ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, 
 SIZES = {name: NUMBER for name in ("inner_width", "inner_height", "outer_width", "outer_height")}
 RANGE = {"start": NUMBER | NONE, "end": NUMBER | NONE}
 ANGLE, SIZE = number(0, 4), number(-1e6, 1e6)  # rad; no input is larger
+LENGTH = number(-1e4, 1e4)  # mm
 SHOWN = ("show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum",
          "follow")  # fmt: skip
 PICTURE = dict.fromkeys(SHOWN, FLAG) | {
@@ -176,6 +177,7 @@ CHANGES = {
     "PlaneView": {"hand": row(one_of("tieline", "line", "end", "point"), ANGLE, SIZE), "pressed": row(COUNT, SHORT)},
     "Phone": {"mark": text(32)},
     "Said": {},
+    "SectionView": {"hand": row(SHORT, LENGTH, LENGTH), "tapped": row(COUNT, SHORT, LENGTH, LENGTH)},
     "ShareHead": {"closed": COUNT},
     "Stretch": {"pulled": row(COUNT, ON_SLIDER, ON_SLIDER)},
     "Surface3D": POINT,
@@ -185,10 +187,8 @@ CHANGES = {
     "TopsMap": {"state": PLAIN, "picked": row(COUNT, SHORT), "moved": row(COUNT, number(-1, 1), number(0.1, 10))},
 }  # fmt: skip
 POINTED = {"sx": NUMBER, "sy": NUMBER, "x": NUMBER, "y": NUMBER, "modifiers": PLAIN}
-DRAGGED = POINTED | {"delta_x": NUMBER, "delta_y": NUMBER}
 # The events of models, with what they carry, and of the page.
-EVENTS = {"tap": POINTED, "doubletap": POINTED,
-          "panstart": POINTED, "pan": DRAGGED, "panend": POINTED}  # fmt: skip
+EVENTS = {"tap": POINTED, "doubletap": POINTED}
 OF_THE_PAGE = {"document_ready": {}}
 
 

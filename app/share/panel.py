@@ -41,9 +41,9 @@ SLOW = 16  # times slower than the real top, unless a speed was chosen
 NAMES = {kind: kind.upper() for kind in (*RUN, "stl", "html")} | {"npz": "NumPy", "py": ".py"}
 ROW = """
 :host { display: flex; flex-flow: row wrap; gap: 8px; align-items: center; padding: 6px 0; min-height: 47px;
-  border-top: 1px solid var(--rule, #d8dce0); box-sizing: border-box } .scroll-button { display: none !important }
+  border-top: 1px solid var(--rule); box-sizing: border-box }
 """
-SAYS = f"b {{ font-size: {px(14)} }} small {{ display: block; font-size: {px(12)}; color: var(--faint, #5b6875) }}"
+SAYS = f"b {{ font-size: {px(14)} }} small {{ display: block; font-size: {px(12)}; color: var(--faint) }}"
 
 
 def made(kind, what, link, slower):

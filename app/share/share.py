@@ -21,13 +21,12 @@ from app.widgets.rest import Rest
 PLACE = """
 :host { position: fixed; z-index: 15; inset: calc(48px * var(--type, 1)) 0 0 auto; width: 488px; height: auto;
   max-height: none; align-self: auto; overflow: auto; padding: 12px 24px 24px; box-sizing: border-box;
-  background: var(--card, #fff); border-left: 1px solid var(--rule, #d8dce0) }
-.scroll-button { display: none !important }
+  background: var(--card); border-left: 1px solid var(--rule) }
 @media (min-width: 1500px) { :host { width: 641px; padding: 12px 32px 24px } }
 @media (max-width: 1180px) { :host { width: 393px; padding: 12px 16px 24px } }
 @media (max-width: 700px) { :host { width: 100%; bottom: calc(53px + env(safe-area-inset-bottom)); border: 0 } }
 """
-UNROLLED = ":host { max-height: none !important } .scroll-button { display: none !important }"
+UNROLLED = ":host { max-height: none !important }"
 
 
 # Over the page, so that nothing moves when it goes.

@@ -2,10 +2,9 @@
 
 import panel as pn
 
-from app.model.colours import ACCENT
 from app.widgets.typeset import typeset
 
-LINK = f"color-mix(in srgb, {ACCENT} 60%, var(--ink, #22303c))"  # legible on light and on dark
+LINK = "color-mix(in srgb, var(--link) 60%, var(--ink))"  # legible on light and on dark
 # The stage beside the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 STAGED = """
@@ -16,14 +15,10 @@ STAGED = """
 }
 """
 MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
-UNROLLED = ".scroll-button { display: none !important }"  # Panel's, which takes a place of its own
-SIDE = (
-    UNROLLED
-    + """
+SIDE = """
 :host { display: contents }
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 24px } }
 """
-)
 IN_SIGHT = "@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }"
 # The card with the stage. On a narrow page it stays in sight below the head; otherwise it is as high as the cards
 # below it, which stay in sight too, allow.
@@ -35,26 +30,26 @@ FIRST = """
 # A name, a note, and an error, wherever they are.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
-.name sub { font-size: 0.8em } .note { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+.name sub { font-size: 0.8em } .note { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
 .alert { font-weight: 500 }
 .alert::before { content: "!" / ""; display: inline-grid; place-items: center; width: 1.5em; height: 1.5em;
-  margin-right: 6px; border-radius: 50%; background: var(--ink, #22303c); color: var(--card, white) }
+  margin-right: 6px; border-radius: 50%; background: var(--ink); color: var(--card) }
 .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
 .name[title], .note [title] { cursor: help }
 """
 TYPE = """
-:host { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #22303c) }
+:host { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink) }
 h2 { font-size: calc(14px * var(--type, 1)); margin: 0; font-weight: 600 }
 i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
-.key { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+.key { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
 .key span { white-space: nowrap } [title] { cursor: help }
 .axis { text-align: center } b { font-weight: 600 }
 .quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
 .swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
 progress { appearance: none; width: min(100%, 240px); height: 6px; border: 0; border-radius: 3px; overflow: hidden;
-  background: var(--rule, #d8dce0) } progress::-webkit-progress-bar { background: var(--rule, #d8dce0) }
-progress::-webkit-progress-value { background: var(--ink, #22303c) }
-progress::-moz-progress-bar { background: var(--ink, #22303c) }
+  background: var(--rule) } progress::-webkit-progress-bar { background: var(--rule) }
+progress::-webkit-progress-value { background: var(--ink) }
+progress::-moz-progress-bar { background: var(--ink) }
 a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
 """.replace("LINK", LINK) + NOTES  # fmt: skip
 
@@ -118,7 +113,6 @@ def grid(*cards, narrowest=480):
             "gap": "24px",
             "padding": "12px 24px 24px",
         },
-        stylesheets=[UNROLLED],
     )
 
 
@@ -152,7 +146,7 @@ def staged(stage, others, mirrored=False):
         pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]),
         pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
     ]
-    sheets = [UNROLLED, STAGED, *([MIRRORED] if mirrored else [])]
+    sheets = [STAGED, *([MIRRORED] if mirrored else [])]
     return pn.Column(*sides[:: -1 if mirrored else 1], sizing_mode="stretch_width", margin=0, stylesheets=sheets)
 
 
@@ -173,5 +167,4 @@ def flexible(*cards):
         "padding": "12px 24px 24px",
         "align-items": "start",
     }
-    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles,
-                     stylesheets=[UNROLLED])  # fmt: skip
+    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)

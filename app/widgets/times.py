@@ -65,7 +65,7 @@ class TimeFigures:
         pulls = BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
         self.figures["normal"].add_layout(pulls)
         followed = {"spans": self._spans, "path": self._unit, "range": self._x_range, "clock": clock}
-        self.figures["theta"].js_on_change("inner_width", call("followSpans", **followed))
+        self.figures["theta"].js_on_change("inner_width", call("moveLines", **followed))
 
     def add(self, name):
         """One more figure on the same time axis; the last one shows the times."""

@@ -56,6 +56,7 @@ class Top3D(Bundled):
         default=None,
         doc="G's distance below O, in R, where O may leave its height of R: in flight, on a stem. None: it does not.",
     )
+    bare = param.Boolean(default=False, constant=True, doc="Whether it has no bar that plays it.")
     tiltable = param.Boolean(default=False, constant=True, doc="Whether the axis has a handle when the top is paused.")
     tilted = param.List(
         default=[],

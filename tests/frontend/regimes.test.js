@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { colours, onDark } from "../../app/frontend/src/colours.js";
-import { endRules, endsOnDark, endsOnLight } from "../../app/frontend/src/ends.js";
+import { endColours, endRules } from "../../app/frontend/src/ends.js";
 import { colourOf, nameOf, ROLLS, wordOf } from "../../app/frontend/src/regimes.js";
 
 const listed = (name) => JSON.parse(readFileSync(new URL(`../../app/model/${name}.json`, import.meta.url), "utf8"));
@@ -27,7 +27,8 @@ test("the browser uses the common list of colours", () => {
 test("the browser uses the common list of ends", () => {
   const inLab = listed("ends").filter((end) => end.in_lab);
   for (const { in_lab: name, colour, on_dark } of inLab) {
-    assert.ok(endsOnLight.includes(`--end-${name}: ${colour};`) && endsOnDark.includes(`--end-${name}: ${on_dark};`));
+    assert.equal(endColours(false)[`--end-${name}`], colour);
+    assert.equal(endColours(true)[`--end-${name}`], on_dark);
     assert.ok(endRules.includes(`.end.${name} { background: var(--end-${name}); }`));
   }
 });

@@ -41,15 +41,19 @@ export function niceAbove(x) {
 /** @param {string} text @param {Record<string, any>} values */
 export const fill = (text, values) => text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
 
-// Asks Python for something. While Bokeh is connecting again it throws instead: then the page goes on, as without a server.
-/** @template W @param {{ asked: W }} model @param {NoInfer<W>} wish */
-export function ask(model, wish) {
+// Sets a value of the model. While Bokeh is connecting again it throws: then the page goes on, as without a server.
+/** @template {object} M @template {keyof M} K @param {M} model @param {K} name @param {NoInfer<M[K]>} value */
+export function set(model, name, value) {
   try {
-    model.asked = wish;
+    model[name] = value;
   } catch (error) {
     if (!(error instanceof DOMException)) throw error;
   }
 }
+
+// Asks Python for something.
+/** @template W @param {{ asked: W }} model @param {NoInfer<W>} wish */
+export const ask = (model, wish) => set(model, "asked", wish);
 
 // Runs once before the next paint, however often it was called before then.
 /** @param {() => void} run @returns {Later} */

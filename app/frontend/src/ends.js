@@ -6,8 +6,6 @@ const inLab = /** @type {{ in_lab: string, colour: string, on_dark: string }[]} 
 /** The colours as CSS custom properties, --end-leans and so on, with the names that the Lab uses.
  * @param {boolean} dark @returns {Record<string, string>} */
 export const endColours = (dark) => Object.fromEntries(inLab.map((end) => [`--end-${end.in_lab}`, end[dark ? "on_dark" : "colour"]]));
-const declared = (dark) => Object.entries(endColours(dark)).map(([name, colour]) => `${name}: ${colour};`).join(" ");
-export const endsOnLight = declared(false), endsOnDark = declared(true);
 
 /** CSS rules that give an element its colour if it has the class `end` and the name of an end. */
 export const endRules = inLab.map(({ in_lab: name }) => `.end.${name} { background: var(--end-${name}); }`).join(" ");

@@ -25,8 +25,6 @@ export async function first(numbers, language) {
   /** @returns {any} */
   const part = (id) => document.getElementById(id);
   const place = part("first"), values = { ...inOneLanguage(JSON.parse(part("first-words").textContent), language), ...numbersIn(bytes) };
-  const { dataset } = document.documentElement;
-  if (window.matchMedia("(prefers-color-scheme: dark)").matches) dataset.look ??= "dark"; // look.js sets it again
   const { model, become } = standIn(values), view = {}, el = document.createElement("div");
   place.attachShadow({ mode: "open" }).append(el);
   place.dataset.title = document.title;

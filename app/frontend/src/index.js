@@ -17,6 +17,7 @@ import { timeOf, topsOf } from "./motion/clock.js";
 import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { site } from "./site.js";
+import { wear } from "./tokens.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
@@ -37,12 +38,14 @@ import { renderPainted } from "./widgets/painted.js";
 import { renderPaper } from "./widgets/paper.js";
 import { renderPhone } from "./widgets/phone.js";
 import { renderShareHead } from "./widgets/share_head.js";
+import { renderSection } from "./widgets/section.js";
 import { renderSymbols } from "./widgets/symbols.js";
 import { renderTopsMap } from "./widgets/tops_map.js";
 import { renderSaid } from "./widgets/said.js";
 import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
+wear(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"); // until look.js knows what a person chose
 window.__tippe = { time: timeOf, tops: topsOf }; // for tests only: there before any component is
 
 // Panel finds a component by the name of its Python class.
@@ -77,6 +80,7 @@ export default {
   PlaneView: { render: renderPlane },
   Photo: { render: renderPhoto },
   Said: { render: renderSaid },
+  SectionView: { render: renderSection },
   Steps: { render: renderSteps },
   ShareHead: { render: renderShareHead },
   Stretch: { render: renderStretch },

@@ -5,44 +5,40 @@ export const style = `
 :host { --line: color-mix(in srgb, currentColor 18%, transparent); }
 .tippe { display: flex; flex-direction: column; width: 100%; height: 100%; min-height: 300px; box-sizing: border-box;
   font: calc(13px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); }
-.picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene, #f1efea); }
+.picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene); }
 .picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
-.picture canvas:focus-visible { outline: 2px solid var(--focus, ${colours.accent}); outline-offset: -2px; }
+.picture canvas:focus-visible { outline: 2px solid var(--focus); outline-offset: -2px; }
 .picture:not([data-drawn]) .labels { visibility: hidden; }
-.labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: var(--scene-ink, #1d2733); }
+.labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: var(--scene-ink); }
 .labels span { position: absolute; left: 0; top: 0; white-space: nowrap; will-change: transform; }
 .labels .vector { font: italic 600 calc(17px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif;
-  text-shadow: 0 0 3px var(--halo, #fff), 0 0 3px var(--halo, #fff), 0 0 5px var(--halo, #fff); }
-.labels .tick { font-size: calc(11px * var(--type, 1)); font-variant-numeric: tabular-nums; color: var(--scene-faint, #4a5563); }
+  text-shadow: 0 0 3px var(--halo), 0 0 3px var(--halo), 0 0 5px var(--halo); }
+.labels .tick { font-size: calc(11px * var(--type, 1)); font-variant-numeric: tabular-nums; color: var(--scene-faint); }
 .labels .axis { font: calc(15px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
 .labels .axis sub, .labels .axis sup, .readout sub, .readout sup { font-size: 70%; line-height: 0; }
-.labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
-.labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent, ${colours.accent});
+.labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo), 0 0 4px var(--halo); }
+.labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent);
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
 @media (hover: hover) { .labels .handle::before { content: ""; position: absolute; inset: -24px; border-radius: 50%; } } /* reached without aiming */
 .labels .handle.moves:not(:hover, :focus-visible, :active) { opacity: 0; }
 .labels .handle:active { cursor: grabbing; }
 .labels .handle:active::after { content: attr(data-said); position: absolute; left: 28px; top: -16px; padding: 2px 8px; border-radius: 999px;
-  font-weight: 600; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733); }
-.labels .handle:focus-visible { outline: 3px solid var(--scene-ink, #1d2733); outline-offset: 2px; }
+  font-weight: 600; background: var(--pill); color: var(--scene-ink); }
+.labels .handle:focus-visible { outline: 3px solid var(--scene-ink); outline-offset: 2px; }
 .note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: #fff4e5;
   color: #5c3b00; box-shadow: 0 1px 4px #0003; }
 .verdict { position: absolute; left: 12px; bottom: 44px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;
-  border-radius: 999px; font-weight: 600; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733); box-shadow: 0 1px 3px #0002; pointer-events: none; }
+  border-radius: 999px; font-weight: 600; background: var(--pill); color: var(--scene-ink); box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .verdict::before { content: ""; width: 10px; height: 10px; border-radius: 50%; background: var(--verdict); }
-.scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: calc(11px * var(--type, 1)); color: var(--scene-faint, #4a5563); pointer-events: none; }
+.scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: calc(11px * var(--type, 1)); color: var(--scene-faint); pointer-events: none; }
 .bar { flex: none; display: flex; flex-wrap: wrap; align-items: center; gap: 6px 8px; padding: 8px 2px 0; }
-.bar button, .bar select { font: inherit; color: inherit; background: transparent; border: 1px solid var(--line); border-radius: 8px;
-  height: 34px; min-width: 34px; padding: 0 6px; cursor: pointer; display: inline-flex; align-items: center; justify-content: center; }
-.bar select option { color: var(--scene-ink, #1d2733); background: var(--card, #fff); }
-.bar button:hover, .bar select:hover { background: color-mix(in srgb, currentColor 8%, transparent); }
-.bar button.play { background: ${colours.accent}; border-color: ${colours.accent}; color: #fff; min-width: 44px; }
-.bar button.play:hover { background: #005f95; }
-.bar :is(button, select, input):focus-visible { outline: 2px solid var(--focus, ${colours.accent}); outline-offset: 2px; }
-.bar svg { width: 18px; height: 18px; fill: currentColor; display: block; }
-.bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: var(--focus, ${colours.accent}); height: 34px; margin: 0; cursor: pointer; }
-.time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733);
+.bar :is(button, select) { font: inherit; color: inherit; background: transparent; border: 0; border-radius: 6px; min-height: 36px; min-width: 36px; padding: 0 6px; cursor: pointer; display: inline-grid; place-items: center; }
+.bar :is(button, select):hover { background: color-mix(in srgb, currentColor 8%, transparent); } .bar select option { background: var(--card); }
+.bar button.play { width: 48px; height: 48px; border-radius: 50%; background: var(--ink); color: var(--card); }
+.bar :is(button, select, input):focus-visible { outline: 3px solid var(--focus); outline-offset: 2px; }
+.bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: var(--focus); height: 36px; margin: 0; cursor: pointer; }
+.time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: var(--pill); color: var(--scene-ink);
   font-variant-numeric: tabular-nums; white-space: nowrap; box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .time sup, .scales sup { font-size: 75%; line-height: 0; }
 .bar .shows { display: flex; flex-wrap: wrap; gap: 5px; }
@@ -50,20 +46,20 @@ export const style = `
   border: 1px solid var(--line); cursor: pointer; white-space: nowrap; user-select: none; }
 .bar .shows label:not(:has(input:checked)) { opacity: 0.75; border-style: dashed; }
 .bar .shows input { position: absolute; opacity: 0; width: 1px; height: 1px; }
-.bar .shows label:has(input:focus-visible) { outline: 2px solid var(--focus, ${colours.accent}); outline-offset: 2px; }
+.bar .shows label:has(input:focus-visible) { outline: 2px solid var(--focus); outline-offset: 2px; }
 .bar .swatch { width: 11px; height: 11px; border-radius: 3px; background: var(--swatch); }
 .bar .shows label:not(:has(input:checked)) .swatch { background: transparent; box-shadow: inset 0 0 0 2px var(--swatch); }
-.readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733);
+.readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: var(--pill); color: var(--scene-ink);
   box-shadow: 0 1px 6px #0003; pointer-events: none; white-space: nowrap; font-size: calc(12px * var(--type, 1)); font-variant-numeric: tabular-nums; }
 .readout i { font-family: "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; font-size: calc(14px * var(--type, 1)); }
-.key { flex: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 6px 2px 0; font-size: calc(12px * var(--type, 1)); color: var(--faint, #3a4552); }
+.key { flex: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 6px 2px 0; font-size: calc(12px * var(--type, 1)); color: var(--faint); }
 .key span::before { content: ""; display: inline-block; width: 16px; height: 3px; margin: 0 6px 3px 0; vertical-align: middle;
   background: var(--swatch); }
 .key sub { font-size: 70%; line-height: 0; }
 @media (max-width: 700px) {
   .scales { display: none; }
-  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { flex: 1 1 40px; min-width: 40px; } .bar .speed { max-width: 104px; } .bar .view { display: none; }
-  .bar :is(button, select, .scrub) { height: 44px; } .bar .shows label { height: 36px; }
+  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { flex: 1 1 40px; min-width: 40px; } .bar select { max-width: 104px; } .bar .view { display: none; }
+  .bar :is(button, select, .scrub) { min-height: 44px; } .bar .shows label { height: 36px; }
   .bar:has(.shows) { flex-wrap: wrap; } .bar .shows { flex: 1 0 100%; flex-wrap: nowrap; overflow-x: auto; }
 }
 `;
@@ -97,13 +93,13 @@ button { font: inherit; color: inherit; background: transparent; border: 1px sol
   min-width: 34px; height: calc(34px * var(--type, 1)); padding: 0 10px; }
 button:hover { background: color-mix(in srgb, currentColor 12%, transparent); }
 button:focus-visible { outline: 2px solid currentColor; outline-offset: 2px; } h2 { outline: none; }
-dialog, .stop { color: var(--ink, #22303c); background: var(--card, #fff); border: 1px solid var(--edge, #7b8794); border-radius: 10px; padding: 14px 18px;
+dialog, .stop { color: var(--ink); background: var(--card); border: 1px solid var(--outline); border-radius: 10px; padding: 14px 18px;
   box-shadow: 0 6px 24px #0006; box-sizing: border-box; max-width: min(560px, calc(100vw - 28px)); }
 dialog::backdrop { background: #0008; }
 h2 { font-size: 1.1em; margin: 0 0 6px; outline-offset: 4px; } h3 { font-size: 1em; margin: 14px 0 4px; }
 table { border-collapse: collapse; margin: 0 0 12px; } th, td { text-align: left; padding: 4px 14px 4px 0; vertical-align: top; font-weight: normal; } th { font-weight: 600; }
 .stop { position: fixed; z-index: 3000; width: min(320px, calc(100vw - 28px)); } .stop p { margin: 0 0 10px; }
-.stop div { display: flex; align-items: center; gap: 8px; } .stop .count { flex: 1; color: var(--faint, #5b6875); }
+.stop div { display: flex; align-items: center; gap: 8px; } .stop .count { flex: 1; color: var(--faint); }
 .stop .next { background: ${colours.accent}; border-color: ${colours.accent}; color: #fff; }
 .ring { position: fixed; z-index: 2999; border: 3px solid ${colours.accent}; border-radius: 10px; box-sizing: border-box; pointer-events: none; box-shadow: 0 0 0 2px #fff; }
 `;

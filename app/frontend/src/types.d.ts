@@ -63,6 +63,7 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   label: string;
   clock: string;
   a: number | null;
+  bare?: boolean; // without a bar of its own
   tiltable: boolean;
   tilted: [theta: number, t: number, grasp: number, azimuth?: number] | [];
   azimuth?: number; // rad: as of Frames
@@ -90,6 +91,12 @@ interface SurfaceModel extends Model {
   limit: "lift-off" | "slip";
   hand: [grip: "end" | "line" | "point", theta: number, K_J: number] | [];
   picked: [K_J: number, theta: number] | [];
+}
+
+interface SectionModel extends Model {
+  state: string;
+  hand: [name: string, x: number, z: number] | [];
+  tapped: [count: number, name: string, x: number, z: number] | [];
 }
 
 interface PlaneModel extends Model {

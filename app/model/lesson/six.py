@@ -96,7 +96,7 @@ def contradiction(scene: Scene) -> Answer:
                "slipped": turns * run.omega[-1, 2]}  # fmt: skip
     theta, every = np.linspace(0, np.pi, 91), slice(None, None, 8)
     curves = (
-        Curve("by_routh", COLOURS["friction"], np.degrees(theta), found.at(theta), "dashed"),
+        Curve("by_routh", COLOURS["routh"], np.degrees(theta), found.at(theta), "dashed"),
         Curve("slips", COLOURS["omega"], np.degrees(run.theta)[every], turns * run.omega[every, 2]),
     )
     points = (Point("by_jellett", 180.0, found.jellett), Point("by_routh", 180.0, found.routh))

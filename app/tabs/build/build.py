@@ -22,7 +22,6 @@ from app.widgets.numbers import Numbers, number, tidy, typed_number
 from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
-NARROW = {"max-width": "max(326px, min(100%, 100vh - 420px))"}  # so that the first sliders are in sight
 OWN = ""  # because a select cannot show that nothing is chosen
 
 
@@ -114,14 +113,13 @@ class Build:
         runs = runs or Runs()
         self.builder, self._tried = builder, {}  # the last requested value of a dimension, in its unit
         self._dimensions, self._shown, self._silent = {}, None, False
-        self.section = Section(self._drag)
+        self.section = Section(self._drag, self._tapped_twice)
         self.numbers, self.derived, self.file_words = words(), words(), words()
         self.source = words()
         self.families = self._choice("family", builder.choose_family)
         self.material = Material(lambda density: builder.set("density", density))
         self.inside = Inside(builder.fill)
         self.dimensions = Numbers([], self._pull, margin=(6, 0))
-        self.section.figure.on_event("doubletap", self._tapped_twice)
         self.parting = self._button("parts", builder.part_densities)
         buttons = flow(self._button("add", builder.add_point), self._button("remove", self._remove), self.parting)
         self.points = pn.Column(words(note(say("build.bench.twice"))), buttons, sizing_mode="stretch_width",
@@ -163,21 +161,20 @@ class Build:
         held, self.section.last_point = self.section.last_point, None
         self.builder.remove_point(last if held is None else min(held, last))
 
-    def _tapped_twice(self, event):
+    def _tapped_twice(self, name, x, z):
         """On a point of a free profile: removes it; elsewhere: adds one."""
         if isinstance(self.builder.draft.shape, Lathe):
-            name = self.section.handle_at(event.x, event.y) or ""
             if name.startswith("point "):
                 self.builder.remove_point(int(name[6:]))
             elif not name:
-                self.builder.add_point(event.x / 1e3, event.y / 1e3)
+                self.builder.add_point(x, z)
 
     @property
     def section_view(self):
         """What kind of body, its section, the results, and whether the explorer's numbers are still those of the
         body."""
-        figure = pn.pane.Bokeh(self.section.figure, margin=0, sizing_mode="scale_width", styles=NARROW)
-        return [flow(self.families, self.material.view), figure, self.numbers, self.derived, self.parted]
+        drawn = self.section.view
+        return [flow(self.families, self.material.view), drawn, self.numbers, self.derived, self.parted]
 
     @property
     def bench_view(self):

@@ -11,11 +11,11 @@ from app.widgets.forms import Button
 from app.widgets.top3d import Top3D, pack_frames
 
 HIGH = 380  # px
-ALONE = ".tippe :is(.verdict, .scales, .time, .shows, .bar) { display: none !important }"
+ALONE = ".tippe :is(.verdict, .scales) { display: none }"
 STAGE = f":host {{ height: clamp(300px, 46vh, {HIGH}px) !important }}"
 CORNER = ":host { position: absolute; bottom: 16px; SIDE: 16px; width: max-content !important; z-index: 1 }"
 PILL = """
-b { display: block; background: var(--card, #fff); border-radius: 16px; padding: 4px 12px;
+b { display: block; background: var(--card); border-radius: 16px; padding: 4px 12px;
   font-variant-numeric: tabular-nums }
 """
 SHOWN = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
@@ -28,7 +28,7 @@ class Built:
     def __init__(self, runs, spin):
         self.told = VerdictWords(runs)
         self.top = Top3D(sizing_mode="stretch_width", height=HIGH, clock="build", label=say("build.spin.top"),
-                         playing=False, stylesheets=[STAGE, ALONE], **SHOWN)  # fmt: skip
+                         playing=False, bare=True, stylesheets=[STAGE, ALONE], **SHOWN)  # fmt: skip
         self.size = words(style=PILL + CORNER.replace("SIDE", "left"), sizing_mode=None)
         self.spin = Button(say("build.spin.it"), spin, kind="primary", stylesheets=[CORNER.replace("SIDE", "right")])
 

@@ -29,14 +29,14 @@ STRIP = (
 .end.mixed { background:
   repeating-linear-gradient(45deg, var(--end-stands, HIGH) 0 3px, var(--end-leans, LOW) 3px 6px) }
 .mark { position: absolute; top: -5px; bottom: -5px; width: 3px; margin-left: -1px; background: var(--accent, ACCENT);
-  outline: 1px solid var(--card, #fff) }
+  outline: 1px solid var(--card) }
 .under { position: relative; display: flex; justify-content: space-between; min-height: 1.5em; padding-top: 5px }
-.under b { position: absolute; transform: translateX(-50%); background: var(--card, #fff);
-  color: color-mix(in srgb, var(--accent, ACCENT) 60%, var(--ink, #22303c)) }
+.under b { position: absolute; transform: translateX(-50%); background: var(--card);
+  color: color-mix(in srgb, var(--accent, ACCENT) 60%, var(--ink)) }
 .kinds { display: flex; flex-wrap: wrap; gap: 0 16px }
 .kinds .end { position: static; display: inline-block; width: calc(12px * var(--type, 1));
   height: calc(12px * var(--type, 1)); margin-right: 6px; vertical-align: -1px;
-  outline: 1px solid var(--rule, #d8dce0) }
+  outline: 1px solid var(--rule) }
 .strip { min-height: calc(92px * var(--type, 1)) }
 """.replace("HIGH", COLOUR_IN_LAB["stands"])
     .replace("LOW", COLOUR_IN_LAB["leans"])

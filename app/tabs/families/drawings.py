@@ -4,22 +4,22 @@ import html
 
 import numpy as np
 
-from app.model.colours import COLOURS, FAINT, INK
 from app.text import say, written
 
-WIDTH = 360  # px: that of a phone; where there is more room, the figure and its letters are scaled up
-LINE, PALE, RULE = f"var(--ink, {INK})", f"var(--faint, {FAINT})", "var(--rule, #e7ebef)"
-SHEET = "color-mix(in srgb, #9a7434 26%, var(--card, #fff))"
+WIDTH = 480  # px: that of the column on a wide page; on a phone the letters are enlarged, as the figure shrinks
+LETTERS = "svg { font-size: 12px } @media (max-width: 700px) { svg { font-size: 16px } }"
+LINE, PALE, RULE = "var(--ink)", "var(--outline)", "var(--rule)"
+SHEET = "color-mix(in srgb, #9a7434 26%, var(--card))"
 
 
 def letters(letter, below=""):
     """A symbol in SVG; the subscript returns to the baseline."""
-    down = f'<tspan dy="3" font-size="9">{below}</tspan><tspan dy="-3">&#8203;</tspan>' if below else ""
+    down = f'<tspan dy=".25em" font-size=".75em">{below}</tspan><tspan dy="-.19em">&#8203;</tspan>' if below else ""
     return f'<tspan font-style="italic">{letter}</tspan>{down}'
 
 
 K_J, F_Z, THETA = letters("K", "J"), letters("F", "z"), letters("θ")
-HALO = f'paint-order="stroke" stroke="var(--card, white)" stroke-width="4" fill="{LINE}"'
+HALO = f'paint-order="stroke" stroke="var(--card)" stroke-width="4" fill="{LINE}"'
 ROOM = 1.1  # rad: room for a name
 DASHED = 'stroke-dasharray="6 4"'
 # Fig. 5 as a drawing: how far the K_J axis runs back and up, relative to width and height of the picture
@@ -61,9 +61,7 @@ class Drawing:
 
     @property
     def svg(self):
-        style = (
-            f'style="font: 12px system-ui, sans-serif; fill: {LINE}; overflow: hidden; width: 100%; max-width: 500px"'
-        )
+        style = f'style="font-family: inherit; fill: {LINE}; overflow: hidden; width: 100%; max-width: {WIDTH}px"'
         return (f'<svg role="img" aria-label="{self._label}" viewBox="0 0 {WIDTH} {self.height}" {style}>'
                 f'{"".join(self._parts)}</svg>')  # fmt: skip
 
@@ -81,14 +79,14 @@ def waterfall(shown, end, most):
     def place(theta, part, height=0.0):
         return theta + BACK * end * part, UP * part + HIGH * height / most
 
-    drawing = Drawing(say("roll.figures.waterfall"), 230, (-0.06 * end, (1 + BACK) * end * 1.03),
+    drawing = Drawing(say("roll.figures.waterfall"), 236, (-0.06 * end, (1 + BACK) * end * 1.03),
                       (-0.14, UP + HIGH + 0.04), (0, 0, 8, 0))  # fmt: skip
     corners = np.array([(0, 0), (end, 0), (end, 1), (0, 1)]).T
     drawing.path(*place(*corners), pen(PALE, 1), closed=True)
     for theta, label in ((0, "0"), (np.pi / 2, "π/2"), (np.pi, "π")):
         if theta <= end:
             drawing.path(*place(np.full(2, theta), np.array([0, 1])), pen(PALE, 1, 'stroke-dasharray="2 4"'))
-            drawing.text(theta, 0, label, 'text-anchor="middle" font-size="11"', shift=(0, 14))
+            drawing.text(theta, 0, label, 'text-anchor="middle"', shift=(0, 17))
     # closed along the tieline, from the back to the front
     for row in np.flatnonzero(np.isfinite(shown.height).all(axis=1))[::-1]:
         drawing.path(*place(shown.theta[row], shown.part[row], shown.height[row]),
@@ -96,20 +94,20 @@ def waterfall(shown, end, most):
                      closed=True)  # fmt: skip
     drawing.path(*place(shown.lift.theta_steady, shown.part), pen(LINE, 1.5, DASHED))
     lifts = np.where(np.isfinite(shown.lift.E), shown.lift.theta_outer, np.nan)
-    drawing.path(*place(lifts, shown.part), pen(COLOURS["normal"]))
-    drawing.text(*place(0, 0.5), K_J, 'text-anchor="end" font-size="14"', shift=(-8, 0))
-    drawing.text(*place(end, 0), THETA, 'font-size="14"', shift=(4, 14))
+    drawing.path(*place(lifts, shown.part), pen("var(--normal)"))
+    drawing.text(*place(0, 0.5), K_J, 'text-anchor="end" font-size="1.15em"', shift=(-8, 0))
+    drawing.text(*place(end, 0), THETA, 'font-size="1.15em"', shift=(24, 17))
     return drawing.svg
 
 
 def plane(shown, mu_s):
     """Fig. 6 of one top, a family.Region: K_J over all tilts, each curve with its name beside it."""
     end, pole = np.pi, shown.pole
-    drawing = Drawing(say("roll.figures.plane"), 262, (0, end), (0, 1.06), (34, 8, 10, 34))
-    drawing.text(0, 1.06, K_J, 'font-size="14" text-anchor="end"', shift=(-12, 8))
+    drawing = Drawing(say("roll.figures.plane"), 282, (0, end), (0, 1.06), (34, 8, 10, 40))
+    drawing.text(0, 1.06, K_J, 'font-size="1.15em" text-anchor="end"', shift=(-12, 8))
     for theta in (0, 1, 2, 3):
-        drawing.text(theta, 0, written(theta, "g"), 'text-anchor="middle"', shift=(0, 15))
-    drawing.text(end, 0, f"{THETA} (rad)", 'text-anchor="end"', shift=(0, 30))
+        drawing.text(theta, 0, written(theta, "g"), 'text-anchor="middle"', shift=(0, 18))
+    drawing.text(end, 0, f"{THETA} (rad)", 'text-anchor="end"', shift=(0, 36))
     for value in _round_steps(pole):
         drawing.path([0, end], [value / pole] * 2, pen(RULE, 1))
         drawing.text(0, value / pole, written(value, "g"), 'text-anchor="end"', shift=(-5, 4))
@@ -120,12 +118,12 @@ def plane(shown, mu_s):
     for one, other in ((left, first), (last, right)):
         there = np.isfinite(one + other)
         around = np.r_[one[there], other[there][::-1]], np.r_[part[there], part[there][::-1]]
-        drawing.path(*around, f'fill="{COLOURS["friction"]}" fill-opacity="0.16"', closed=True)
+        drawing.path(*around, f'fill="{LINE}" fill-opacity="0.09"', closed=True)
     gap = np.full(len(part), np.nan)
     drawing.path(np.c_[first, last, gap].ravel(), np.repeat(part, 3), pen(LINE, 1, 'stroke-opacity="0.55"'))
     lifts = np.where(np.isfinite(lift.E), right, np.nan)
-    drawing.path(lifts, part, pen(COLOURS["normal"], 2))
-    drawing.path(slip.theta_verge, part, pen(COLOURS["friction"], 2))
+    drawing.path(lifts, part, pen("var(--normal)", 2))
+    drawing.path(slip.theta_verge, part, pen(LINE))
     drawing.path(steady, part, pen(LINE, 1.5, DASHED))
     beyond = np.fmax(np.fmax(right, last), steady)
     for words, curve, at in ((say("family.key.lift", F_z=F_Z), lifts, 0.4),
@@ -162,5 +160,5 @@ def pair(shown, mu_s):
     reach = np.nanmax(shown.lift.theta_outer, initial=0.0)
     most = np.nanmax(shown.height, initial=0.0) or 1.0
     end = min(np.pi, max(np.pi / 2, 1.03 * reach))
-    return (f'<h3>{say("family.tops.rolls")}</h3>{plane(shown, mu_s)}'
-            f'<h3>{say("family.tops.surface")}</h3>{waterfall(shown, end, most)}')  # fmt: skip
+    return (f'<h2>{say("family.tops.rolls")}</h2>{plane(shown, mu_s)}'
+            f'<h2>{say("family.tops.surface")}</h2>{waterfall(shown, end, most)}')  # fmt: skip

@@ -13,7 +13,7 @@ from app.model.families.known_tops import KnownTop, known_of, known_tops
 from app.model.runs import Run, Runs, Stopped
 from app.model.setup import PATCH
 from app.state import asked
-from app.tabs.families.drawings import pair
+from app.tabs.families.drawings import LETTERS, pair
 from app.text import listed, say
 from app.widgets.cards import alert, flow, note, words
 from app.widgets.forms import Button
@@ -45,7 +45,7 @@ class Tops:
         for name, does in (("picked", self._picked), ("moved", self._moved)):
             at_once(self.map, name)
             self.map.param.watch(asked.heard(does), name)
-        self.head, self.figures = words(margin=(0, 0, 6, 0)), words()
+        self.head, self.figures = words(margin=(0, 0, 6, 0)), words(style=LETTERS)
         self.use = Button(say("family.tops.use"), lambda: use(self._top.name), kind="primary")
         self.change = Button(say("family.tops.change"), lambda: change(self._top.name))
         self._top = None

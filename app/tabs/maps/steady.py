@@ -21,12 +21,12 @@ from app.widgets.plots import draw, plain
 from tippe_core import TopError
 
 COLOURS = {"upright": ACCENT, "tumbling": ends.COLOUR["stem"], "inverted": "#9b2d20"}
-OF_KEY = {ACCENT: f"var(--accent, {ACCENT})"}  # the figures change it on dark too
+OF_KEY = {ACCENT: "var(--accent)"}  # the figures change it on dark too
 DASHES = {True: "solid", False: "dashed"}
 TABLE = """
 table { border-collapse: collapse; margin: 4px 0 8px } th, td { padding: 2px 16px 2px 0; text-align: left;
   font-weight: 400; vertical-align: baseline } td { font-variant-numeric: tabular-nums }
-th { color: var(--faint, #5b6875) }
+th { color: var(--faint) }
 """
 SHADES = (ends.COLOUR["stem"], None)  # of the points after the first and the second time
 

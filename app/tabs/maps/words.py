@@ -42,9 +42,7 @@ def colours_say(level, colour):
         if colour == "end" and (on_the_way := (level.end == "moving").sum()):
             said.append(f"<br>{say('maps.on_the_way', moving=on_the_way, count=level.end.size)}")
         names = dict.fromkeys(name for name, _ in lines(level.asked))
-        said += [
-            f"<br>{swatch('var(--faint, #5b6875)', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names
-        ]
+        said += [f"<br>{swatch('var(--faint)', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names]
     return "".join(said)
 
 

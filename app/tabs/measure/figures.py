@@ -29,7 +29,7 @@ SHOWN = dict.fromkeys(("tilt", "line", "azimuth"), 180 / np.pi) | dict.fromkeys(
 COLOUR = {"spin": "omega", "precession": "omega", "azimuth": "theta"}
 HEIGHT, SMALL, REST, LEFT = 250, 180, 56, 52  # px; SMALL if there are more than two figures
 NOTHING = {"t": np.zeros(0), "y": np.zeros(0)}
-FRAME = f"height: {HEIGHT + REST}px; border: 1px solid var(--rule, #d8dce0); border-radius: 6px; box-sizing: border-box"
+FRAME = f"height: {HEIGHT + REST}px; border: 1px solid var(--rule); border-radius: 6px; box-sizing: border-box"
 HEAD = "display: flex; flex-wrap: wrap; justify-content: space-between; align-items: baseline; gap: 0 16px"
 
 
@@ -88,7 +88,7 @@ class Pictures:
             fig.add_layout(begun)
             pull = call("pullFilm", fig=fig, hand=self._hand, starts=self._starts, curves=curves)
             on_pointer(fig, pull, "mousemove")
-        figures[0].js_on_change("inner_width", call("followFilm", spans=spans))
+        figures[0].js_on_change("inner_width", call("moveLines", spans=spans, clock="film"))
         figures[0].add_layout(Label(x=start, y=high - 32, y_units="screen", x_offset=5, text=say("measure.begins"),
                                     text_color=FAINT, text_font_size="12px"))  # fmt: skip
         figures[-1].xaxis.visible = True

@@ -15,11 +15,11 @@ OF_MODELS = ("", " class=n", *[" class='n deep'"] * 2, "")
 TABLE = """
 table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
 p { margin: 4px 0 } td, th { padding: 3px 10px 3px 0; text-align: left; font-weight: normal; vertical-align: baseline }
-th { color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) }
+th { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
 :host(.brief) .deep { display: none }
 td.n, th + th:not(:last-child) { text-align: right } td.n { white-space: nowrap }
 tr.best td { font-weight: 600 }
-td.faint { color: var(--faint, #5b6875) } tr + tr { border-top: 1px solid var(--rule, #d8dce0) }
+td.faint { color: var(--faint) } tr + tr { border-top: 1px solid var(--rule) }
 h3 { font-size: calc(18px * var(--type, 1)); margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
 @media (max-width: 500px) { td, th { padding-right: 4px } }
 """

@@ -4,7 +4,7 @@ import { shared } from "./style.js";
 import { part } from "../widgets/parts.js";
 
 const alone = `${shared}
-.frame, .frame[data-look=dark] { --ground: var(--card, #fff); container-type: normal; background: none; flex: 1 1 auto; min-width: 0; }
+.frame { container-type: normal; background: none; flex: 1 1 auto; min-width: 0; }
 @media (max-width: 700px) { .frame, .frame[data-large] { --touch: 44px; } :is(.primary, .outline, .link, select, .num) { min-height: 44px; } }
 `;
 

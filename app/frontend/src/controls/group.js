@@ -8,7 +8,7 @@ import { Asking } from "../lab/asking.js";
 import { Choice, part } from "../lab/parts.js";
 
 const style = `${shared}${numbers}${segments}
-.frame, .frame[data-look=dark] { --ground: var(--card, #fff); }
+.frame, .frame[data-look=dark] { --ground: var(--card); }
 .group { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 220px), 1fr)); gap: 8px 24px; align-items: start; }
 .group :is(.titled, .choice), .group > .small { grid-column: 1 / -1; } .group > .dock { display: contents; }
 .group .choice { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 8px; }

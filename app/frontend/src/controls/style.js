@@ -1,18 +1,11 @@
-// The style of everything that a hand sets: tokens for light, dark and large; buttons and choices; number controls. Four
+// The style of everything that a hand sets: sizes, and short names for tokens.js; buttons and choices; number controls. Four
 // font sizes, a grid of 8 px, one blue for what is selected, one colour for each quantity.
-import { colours, onDark } from "../colours.js";
-import { endsOnDark, endsOnLight } from "../ends.js";
-
 const tokens = `
 .frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
-  --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
-  --accent: ${colours.accent}; --q-spin: ${colours.omega}; --q-energy: ${colours.energy}; --q-energy-wash: ${colours.energy_wash};
-  ${endsOnLight} --shape: #55606c;
+  --ground: var(--card); --floor: var(--scene); --ink-2: var(--faint); --line: var(--rule); --line-2: var(--outline);
+  --q-spin: var(--omega); --q-energy: var(--energy); --q-energy-wash: var(--energy_wash); --q-jellett: var(--jellett); --q-routh: var(--routh); --q-force: var(--normal);
   container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
   -webkit-font-smoothing: antialiased; }
-.frame[data-look=dark] { --ground: #0e1318; --floor: #191f25; --ink: #eef2f5; --ink-2: #a9b4bf; --line: #2d363f; --line-2: #75818d;
-  --accent: ${onDark.accent}; --q-spin: ${onDark.omega}; --q-energy: ${onDark.energy}; --q-energy-wash: ${onDark.energy_wash};
-  ${endsOnDark} --shape: #a9b4bf; color-scheme: dark; }
 .frame[data-large] { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --bar: 176px; }
 `;
 

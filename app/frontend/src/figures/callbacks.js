@@ -1,14 +1,13 @@
 // The functions that Python has Bokeh call, by name: see app/bundle.py. Arguments: what Python passed, then the event.
 import { keepFinger, moveBead, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
-import { followFilm, pullFilm } from "./measured.js";
+import { pullFilm } from "./measured.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
-import { followSpans, followWell } from "./run.js";
-import { pressSection } from "./sections.js";
+import { followWell } from "./run.js";
 import { seekAlong } from "./seeking.js";
 
 const callbacks = {
-  followCurve, followFilm, followSpans, followWell, keepFinger, moveBead, moveLines, nameFigure, pressSection, pullBead, pullFilm,
+  followCurve, followWell, keepFinger, moveBead, moveLines, nameFigure, pullBead, pullFilm,
   seekAlong, seekOnCurve,
 };
 

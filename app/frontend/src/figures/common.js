@@ -14,12 +14,17 @@ export function nameFigure({ fig, label }) {
   el.dataset.figure = fig.name;
 }
 
-// Lines at the time of the clock.
-/** @param {{ spans: BokehModel[], clock?: string }} given */
-export function moveLines({ spans, clock }) {
+// Lines at the time of the clock. path: its tags have the unit of time; range: the time axis, which turns a page where
+// they leave it.
+/** @param {{ spans: BokehModel[], clock?: string, path?: Source, range?: BokehModel & { start: number, end: number } }} given */
+export function moveLines({ spans, clock, path, range }) {
   if (isFollowed(spans[0])) return;
   const move = (t) => {
-    for (const span of spans) span.setv({ location: t }, { sync: false });
+    const now = t * (path?.tags[0] ?? 1);
+    for (const span of spans) span.setv({ location: now }, { sync: false });
+    if (!range) return;
+    const { start, end } = range, page = end - start, turned = page * Math.floor(now / page);
+    if (now < start || now > end) range.setv({ start: turned, end: turned + page }, { sync: false });
   };
   followClock(move, clock);
   move(timeOf(clock));

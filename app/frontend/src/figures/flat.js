@@ -69,8 +69,7 @@ class Flat {
       photo: (wide) => this.photo(wide),
     });
     this.player = this.place.player;
-    this.bar = new Bar(root, picture, model, this.player, () => {});
-    for (const part of root.querySelectorAll(".shows, .view")) part.remove(); // a flat picture cannot show these
+    this.bar = model.bare ? null : new Bar(root, picture, model, this.player, null);
   }
 
   tick() {
@@ -82,7 +81,7 @@ class Flat {
       this.paint(canvas, width, height, devicePixelRatio);
       this.pictures += 1;
     }
-    if (this.player.frames.count) this.bar.update(model.seconds);
+    if (this.player.frames.count) this.bar?.update(model.seconds);
     place.say(this.verdict);
     if (place.moves) this.draw();
   }

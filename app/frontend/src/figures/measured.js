@@ -1,7 +1,6 @@
-// The figures of a measured film: a line at the time of the film, and a handle for the moment at which a motion begins.
+// The figures of a measured film: a handle for the moment at which a motion begins.
 import { scalesOf, setCursor } from "../borrowed.js";
-import { timeOf } from "../motion/clock.js";
-import { followClock, gestureOf, isDown, isFollowed, seek } from "./seeking.js";
+import { gestureOf, isDown, seek } from "./seeking.js";
 
 const CLOCK = "film";
 const REACH = 16; // px: a drag that starts this close to the line of the start moves the start, any other one the time
@@ -9,16 +8,6 @@ const REACH = 16; // px: a drag that starts this close to the line of the start 
 // For each hand that has grabbed the start: where the start and the curves were before.
 /** @type {WeakMap<object, { first: number, curves: number[][] }>} */
 const pulls = new WeakMap();
-
-/** @param {{ spans: BokehModel[] }} given */
-export function followFilm({ spans }) {
-  if (isFollowed(spans[0])) return;
-  const move = (t) => {
-    for (const span of spans) span.setv({ location: t }, { sync: false });
-  };
-  followClock(move, CLOCK);
-  move(timeOf(CLOCK));
-}
 
 /** @param {{ fig: any, hand: any, starts: any[], curves: any[] }} given @param {Happened} event */
 export function pullFilm({ fig, hand, starts, curves }, event) {

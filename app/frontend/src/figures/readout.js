@@ -4,8 +4,8 @@
 const GAP = 14, EDGE = 6; // px from the pointer or from what must stay visible, and from the edge of the window
 const STYLE = {
   position: "fixed", zIndex: "1500", pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px",
-  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink, #22303c)",
-  background: "var(--card, #fff)", border: "1px solid var(--faint, #8a96a3)",
+  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink)",
+  background: "var(--card)", border: "1px solid var(--faint)",
 };
 
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */

@@ -1,4 +1,4 @@
-// A run: lines at the time of the clock, and the top as a bead in its present well. Not synced.
+// A run: the top as a bead in its present well. Not synced.
 import { rowBefore } from "../data.js";
 import { clamp, valueAt } from "./curves.js";
 import { followClock, isFollowed } from "./seeking.js";
@@ -22,17 +22,6 @@ function showWell({ wells, steady, none, range }, which) {
   const present = Array.from(well, (k) => (k === which ? 1 : 0));
   quietly(steady, { data: { ...steady.data, alpha: present, fill: present.map((on, k) => on * stable[k]) } });
   if (which >= 0) quietly(range, { start: low[which], end: high[which] });
-}
-
-// The lines at the present time; the time axis turns a page where they leave it.
-/** @param {{ spans: BokehModel[], path: Source, range: BokehModel & { start: number, end: number }, clock: string }} given path: its tags have the unit of time */
-export function followSpans({ spans, path, range, clock }) {
-  if (isFollowed(path)) return;
-  followClock((t) => {
-    const now = t * path.tags[0], { start, end } = range, page = end - start;
-    for (const span of spans) quietly(span, { location: now });
-    if (now < start || now > end) quietly(range, { start: page * Math.floor(now / page), end: page * (Math.floor(now / page) + 1) });
-  }, clock);
 }
 
 /** @param {Record<"path" | "bead" | "wells" | "steady", Source> & Record<"none" | "range", BokehModel> & { clock: string }} given */

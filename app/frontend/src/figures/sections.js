@@ -1,7 +1,4 @@
-// Sections through a top: the one of the lesson at an instant, and the one of the body being built. Not synced.
-import { eventsOf, scalesOf } from "../borrowed.js";
-import { isFollowed } from "./seeking.js";
-
+// The section through a top of the lesson at an instant.
 const ALONG = 1.9; // R: length of axis 3 beyond O
 
 // The paper's Fig. 4 at an instant, from points sent by Python: the outline, six lines and four points.
@@ -18,15 +15,4 @@ export function sectionAt({ axis, G, foot }, { across, along }) {
     [0, 0, 0, 1.7],
   ];
   return { x, y, lines, points: [[0, 1], G, [0, 0], tip] };
-}
-
-// Sends where the pointer is pressed: a fast one has moved on by the time Bokeh calls it a drag.
-/** @param {{ fig: Figure, pressed: Source<"x" | "z"> }} given */
-export function pressSection({ fig, pressed }) {
-  if (isFollowed(pressed)) return;
-  const press = ({ offsetX, offsetY }) => {
-    const { x, y } = scalesOf(fig);
-    pressed.data = { x: [x.invert(offsetX)], z: [y.invert(offsetY)] };
-  };
-  eventsOf(fig).addEventListener("pointerdown", press, { capture: true });
 }

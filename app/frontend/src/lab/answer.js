@@ -2,6 +2,7 @@
 // turns, where it touches the table, and the ball.
 import { caps } from "./caps.js";
 import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
+import { levels as grid, marks, times } from "./line.js";
 import { lineOf } from "./numbers.js";
 import { Choice, drawn, part, say } from "./parts.js";
 import { Frames } from "../motion/frames.js";
@@ -144,17 +145,9 @@ export class Answer {
 
   /** @param {number} least @param {number} most @param {string} unit @param {number} apart px between two ticks */
   axes(least, most, unit, apart = 90) {
-    const y = (value) => this.bottom - ((this.bottom - TOP) * (value - least)) / (most - least || 1), found = [];
-    const marks = ticks(least, most, Math.max(2, this.height / apart));
-    for (const value of marks) {
-      const digits = Math.abs(value % 1) > 1e-9 ? 1 : 0, text = say(this.texts, value === marks.at(-1) ? `{value} ${unit}` : "{value}", { value: [value, digits] });
-      found.push(drawn("line", { class: value ? "grid" : "axis", x1: LEFT, x2: this.right, y1: y(value), y2: y(value) }),
-        drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, text));
-    }
-    for (const t of ticks(0, this.time.span || 1, 6)) {
-      found.push(drawn("text", { x: this.x(t), y: this.bottom + 16, "text-anchor": "middle" }, say(this.texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
-    }
-    return { y, found };
+    const y = (value) => this.bottom - ((this.bottom - TOP) * (value - least)) / (most - least || 1), up = ticks(least, most, Math.max(2, this.height / apart));
+    const number = (value) => say(this.texts, value === up.at(-1) ? `{value} ${unit}` : "{value}", { value: [value, Math.abs(value % 1) > 1e-9 ? 1 : 0] });
+    return { y, found: [...grid(up, { y, left: LEFT, right: this.right }, number), ...marks(ticks(0, this.time.span || 1, 6), this, times(this.texts))] };
   }
 
   // The earlier run, one quantity.

@@ -74,6 +74,10 @@ export function ticks(least, most, count) {
   return found;
 }
 
+// How many digits numbers at such distances need.
+/** @param {number[]} marks */
+export const digitsOf = (marks) => (marks.length > 1 ? Math.max(0, Math.ceil(-Math.log10(marks[1] - marks[0]) - 1e-9)) : 0);
+
 const SLOW = 1 / 4, AFTER = 1 / 2, FASTEST = 8;
 const LOOK = 0.6, SOON = 0.3, FIRST = 2, QUIET = 1.2, LONG = 3; // s
 

@@ -1,28 +1,20 @@
 // The tilt over time, which also controls the time: play, drag anywhere on it, the speed, and back to the start.
 import { latest, placed, TABLES, ticks, TILT } from "./curves.js";
-import { drawn, part, say } from "./parts.js";
+import { FOOT, LEFT, levels, marks, RIGHT, TimeLine, times } from "./line.js";
+import { drawn, icon, part, say } from "./parts.js";
 import { SPEEDS } from "./time.js";
 
-const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
+const HEADROOM = 36; // px above the plot
 const GAP = 6; // px between the plot and what is left of it
 const LETTER = 0.51; // mean width of a letter, in units of the font size
 const NARROW = 660; // px: a narrower strip uses short words
 const NEED = 100; // px: a shorter stage of the run has no room for a small top
-const ICONS = {
-  play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z", again: "M4 4v4h4M4.500 8a6 6 0 1 1-.6 4",
-};
-const icon = (name, attributes) => drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" },
-  drawn("path", { d: ICONS[name], ...attributes }));
-
-export class Strip {
+export class Strip extends TimeLine {
   /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
   constructor(texts, time) {
-    this.texts = texts;
-    this.time = time;
-    this.width = this.top = this.bottom = 0; // px; not known yet
+    super(texts, time, { label: texts.time, step: 0.01 });
     /** @type {import("./curves.js").Curves | null} */
     this.before = null;
-    this.play = part("button", { class: "round", type: "button", onclick: () => time.play(!time.playing) });
     this.clock = part("span", { class: "clock" });
     this.speed = part("select", {
       class: "speed", "aria-label": texts.speed, onchange: () => time.chose(Number(this.speed.value)),
@@ -30,42 +22,9 @@ export class Strip {
     const again = part("button", { class: "again", type: "button", title: texts.again_hint, onclick: () => {
       time.again();
       time.play(true);
-    } }, icon("again", { fill: "none", stroke: "currentColor", "stroke-width": 2 }), ` ${texts.again}`);
-    this.range = part("input", {
-      type: "range", class: "at", min: 0, step: 0.01, "aria-label": texts.time,
-      oninput: () => time.seek(Number(this.range.value)),
-      onkeydown: (event) => {
-        if (event.key !== " ") return;
-        event.preventDefault();
-        time.play(!time.playing);
-      },
-    });
-    this.drawing = drawn("svg", { "aria-hidden": "true" });
-    this.head = part("span", { class: "head" });
-    this.line = part("span", { class: "now" });
-    this.plot = part("div", { class: "plot" }, this.drawing, this.range, this.line, this.head);
+    } }, icon("again"), ` ${texts.again}`);
     this.element = part("section", { class: "strip", "aria-label": texts.bar },
       part("div", { class: "starts" }, this.play, this.clock), this.plot, part("div", { class: "paces" }, this.speed, again));
-    this.listen();
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
-  }
-
-  // The pointer takes over the time as soon as it is pressed, even if it does not move at first.
-  listen() {
-    const { plot, time } = this;
-    const put = (event, held) => time.seek(this.timeAt(event.clientX - plot.getBoundingClientRect().left), held);
-    plot.addEventListener("pointerdown", (event) => {
-      if (event.button || !this.scene) return;
-      event.preventDefault();
-      plot.setPointerCapture(event.pointerId);
-      this.range.focus({ preventScroll: true });
-      put(event, true);
-    });
-    plot.addEventListener("pointermove", (event) => plot.hasPointerCapture(event.pointerId) && put(event, true));
-    for (const end of ["pointerup", "pointercancel"]) {
-      plot.addEventListener(end, () => time.held && time.seek(time.t));
-    }
   }
 
   get right() {
@@ -82,13 +41,7 @@ export class Strip {
     return parseFloat(getComputedStyle(this.plot).fontSize);
   }
 
-  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
   y = (tilt) => this.bottom - ((this.bottom - this.top) * tilt) / 180;
-
-  /** @param {number} x in px */
-  timeAt(x) {
-    return ((x - LEFT) / (this.right - LEFT)) * this.time.span;
-  }
 
   show(scene) {
     const { before } = scene, curves = before?.curves[before.table];
@@ -141,15 +94,9 @@ export class Strip {
   }
 
   axes() {
-    const { right, bottom, time, texts } = this, found = [];
-    for (const tilt of [0, 90, 180]) {
-      found.push(drawn("line", { class: tilt ? "grid" : "axis", x1: LEFT, x2: right, y1: this.y(tilt), y2: this.y(tilt) }),
-        drawn("text", { x: LEFT - 6, y: this.y(tilt) + 4, "text-anchor": "end" }, `${tilt}°`));
-    }
-    for (const t of ticks(0, time.span || 1, Math.min(8, this.width / 50))) {
-      found.push(drawn("text", { x: this.x(t), y: bottom + 16, "text-anchor": "middle" }, say(texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
-    }
-    return found;
+    const { time: { span }, texts } = this;
+    return [...levels([0, 90, 180], { y: this.y, left: LEFT, right: this.right }, (tilt) => `${tilt}°`),
+      ...marks(ticks(0, span || 1, Math.min(8, this.width / 50)), this, times(texts))];
   }
 
   // What happened and when, above the curve.
@@ -217,18 +164,10 @@ export class Strip {
 
   /** @param {number} t */
   at(t) {
-    const { time, texts, scene } = this, name = time.playing ? "pause" : "play";
+    const { time, texts, scene } = this;
     if (!this.width) return;
-    const x = this.x(t);
-    this.clip.setAttribute("width", String(Math.max(x, 0)));
-    for (const moved of [this.head, this.line]) moved.style.transform = `translateX(${x}px)`;
-    if (this.icon !== name) {
-      this.icon = name;
-      this.play.replaceChildren(icon(name, { fill: "currentColor" }));
-      this.play.setAttribute("aria-label", texts[name]);
-    }
+    this.clip.setAttribute("width", String(Math.max(this.move(t), 0)));
     this.clock.textContent = say(texts, "{t} s", { t: [t, 2] });
-    this.range.value = String(t);
     const curves = scene.curves[scene.table === "three" ? "ordinary" : scene.table];
     const [, headline] = latest(scene.run?.stages ?? [], t) ?? [];
     this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, 2], tilt: [curves.at(t, TILT) || 0, 0], headline: headline ?? "" }));
@@ -237,9 +176,5 @@ export class Strip {
     const { isNarrow } = this, fits = (isNarrow ? texts.short_speeds : texts.speeds)[SPEEDS.indexOf(time.speed)];
     const own = isNarrow ? fits : say(texts, texts.automatic, { speed: fits });
     if (this.speed.options[0].text !== own) this.speed.options[0].text = own;
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }

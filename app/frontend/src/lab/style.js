@@ -72,9 +72,9 @@ const stage = `
 .ring { position: absolute; left: 50%; top: max(58px, 9%); margin-left: -65px; display: flex; align-items: center; gap: 8px; color: var(--q-spin); font-weight: 600; white-space: nowrap;
   font-variant-numeric: tabular-nums; pointer-events: none; }
 .ring svg { width: 130px; flex: none; } .ring.back svg { transform: scaleX(-1); }
-.ring span { font-size: var(--t-s); text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
-.caption { position: absolute; left: 0; right: 0; bottom: 20px; text-align: center; color: var(--scene-faint, #4a5563); padding: 0 8px; pointer-events: none; }
-.caption b, .caption .does { color: var(--scene-ink, #1d2733); }
+.ring span { font-size: var(--t-s); text-shadow: 0 0 3px var(--halo), 0 0 4px var(--halo); }
+.caption { position: absolute; left: 0; right: 0; bottom: 20px; text-align: center; color: var(--scene-faint); padding: 0 8px; pointer-events: none; }
+.caption b, .caption .does { color: var(--scene-ink); }
 
 .unseen { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 .missing { position: absolute; pointer-events: none; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
@@ -83,7 +83,7 @@ const stage = `
   .on > select { max-width: none; flex: 1; min-height: 50px; }
   .ring { top: 66px; left: auto; right: 8px; margin: 0; flex-direction: column; gap: 0; } .ring svg { width: 64px; }
   .lab[data-table=three] .top { top: 60px; bottom: 72px; } .caption { bottom: 4px; height: 68px; font-size: var(--t-s); padding: 0 4px; }
-  .lab[data-table=three] .stage { background: var(--scene, #f1efea); }
+  .lab[data-table=three] .stage { background: var(--scene); }
 }
 `;
 

@@ -3,7 +3,7 @@ import { renderTop3D } from "../three/top3d.js";
 import { part } from "./parts.js";
 
 // The Lab has its own words for these.
-const OURS = ".tippe :is(.bar, .verdict, .time) { display: none } :host(:not([data-arrows])) .tippe .scales { display: none }" +
+const OURS = ".tippe .verdict { display: none } :host(:not([data-arrows])) .tippe .scales { display: none }" +
   ".tippe .scales { left: auto; right: 16px; top: 16px } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 } @container (max-width: 700px) { .tippe .scales { display: none } }";
 
 // What is shown of a motion besides the top itself.
@@ -26,7 +26,7 @@ export class Top {
     this.element = part("div", { class: "top" });
     const values = {
       texts, label, clock: time.name, now: undefined, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
-      flick, pushes: [], tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
+      bare: true, flick, pushes: [], tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
       get camera() { return camera; },
       set camera(chosen) {
         camera = chosen.length ? chosen : first;

@@ -1,52 +1,22 @@
 // The time, and the tilt as far as it has been seen: play, and drag anywhere. What comes after the guess is hidden.
-import { ticks, TILT } from "../lab/curves.js";
+import { digitsOf, ticks, TILT } from "../lab/curves.js";
+import { FOOT, LEFT, levels, marks, TimeLine, times } from "../lab/line.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { DASHES } from "./stage.js";
 
-const LEFT = 40, RIGHT = 14, TOP = 20, FOOT = 22, LETTER = 6.6; // px
-const ICONS = { play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z" };
+const TOP = 20, LETTER = 6.6; // px
 
-export class Bar {
+export class Bar extends TimeLine {
   /** @param {Record<string, any>} texts @param {import("../lab/time.js").Time} time */
   constructor(texts, time) {
-    this.texts = texts;
-    this.time = time;
-    this.width = this.bottom = 0; // px; not known yet
-    this.play = part("button", { class: "round", type: "button", onclick: () => time.play(!time.playing) });
-    this.range = part("input", { type: "range", class: "at", min: 0, step: "any", "aria-label": texts.lesson.time,
-      oninput: () => time.seek(Number(this.range.value)) });
-    this.drawing = drawn("svg", { "aria-hidden": "true" });
-    this.head = part("span", { class: "head" });
-    this.line = part("span", { class: "now" });
-    this.plot = part("div", { class: "plot" }, this.drawing, this.range, this.line, this.head);
+    super(texts, time, { label: texts.lesson.time, step: "any" });
     this.note = part("p", { class: "small" });
     this.element = part("section", { class: "bar", "aria-label": texts.lesson.bar }, this.play, this.plot, this.note);
-    this.listen();
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
-  }
-
-  // The pointer takes over the time as soon as it is pressed, even if it does not move at first.
-  listen() {
-    const { plot, time } = this;
-    const put = (event, held) => time.seek(this.timeAt(event.clientX - plot.getBoundingClientRect().left), held);
-    plot.addEventListener("pointerdown", (event) => {
-      if (event.button || !this.scene) return;
-      event.preventDefault();
-      plot.setPointerCapture(event.pointerId);
-      this.range.focus({ preventScroll: true });
-      put(event, true);
-    });
-    plot.addEventListener("pointermove", (event) => plot.hasPointerCapture(event.pointerId) && put(event, true));
-    for (const end of ["pointerup", "pointercancel"]) plot.addEventListener(end, () => time.held && time.seek(time.t));
   }
 
   get whole() {
     return this.scene.step.end;
   }
-
-  x = (t) => LEFT + ((this.width - RIGHT - LEFT) * t) / this.whole;
-  timeAt = (x) => ((x - LEFT) / (this.width - RIGHT - LEFT)) * this.whole;
 
   show(scene) {
     this.scene = scene;
@@ -85,23 +55,15 @@ export class Bar {
   }
 
   covered() {
-    const { texts: { lesson } } = this, x = this.x(this.time.end), wide = this.width - RIGHT - x;
+    const { texts: { lesson } } = this, x = this.x(this.time.end), wide = this.right - x;
     const word = this.scene.inClass ? lesson.rest_votes : lesson.rest;
     return [drawn("rect", { class: "covered", x, y: TOP - 6, width: Math.max(wide, 0), height: this.bottom - TOP + 6 }),
       drawn("text", { class: "word", x: x + wide / 2, y: (TOP + this.bottom) / 2, "text-anchor": "middle" }, wide > LETTER * word.length ? word : "")];
   }
 
-  axes(y, marks) {
-    const found = [], { width, bottom, whole, texts } = this;
-    for (const tilt of marks) {
-      found.push(drawn("line", { class: tilt === marks[0] ? "axis" : "grid", x1: LEFT, x2: width - RIGHT, y1: y(tilt), y2: y(tilt) }),
-        drawn("text", { x: LEFT - 6, y: y(tilt) + 4, "text-anchor": "end" }, `${tilt}°`));
-    }
-    const times = ticks(0, whole, Math.min(6, width / 60)), step = times[1] - times[0] || 1, digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
-    for (const t of times) {
-      found.push(drawn("text", { x: this.x(t), y: bottom + 16, "text-anchor": "middle" }, say(texts, t ? "{t}" : "{t} s", { t: [t, t ? digits : 0] })));
-    }
-    return found;
+  axes(y, tilts) {
+    const { width, right, whole, texts } = this, along = ticks(0, whole, Math.min(6, width / 60));
+    return [...levels(tilts, { y, left: LEFT, right }, (tilt) => `${tilt}°`, tilts[0]), ...marks(along, this, times(texts, digitsOf(along)))];
   }
 
   // What happened and when, as far as it has been seen.
@@ -123,26 +85,15 @@ export class Bar {
 
   /** @param {number} t */
   at(t) {
-    const { time, texts, scene } = this, icon = time.playing ? "pause" : "play";
+    const { time, texts, scene } = this;
     if (!this.width || !scene?.tops.length) return;
-    const x = this.x(t), seen = Math.min(scene.record.seen, time.end);
+    const x = this.move(t), seen = Math.min(scene.record.seen, time.end);
     this.played.setAttribute("width", String(Math.max(x, 0)));
     this.seen.setAttribute("width", String(Math.max(this.x(seen), 0)));
     for (const mark of this.marks) mark.style.display = Number(mark.dataset.t) <= seen + 1e-6 ? "" : "none";
-    for (const moved of [this.head, this.line]) moved.style.transform = `translateX(${x}px)`;
-    if (this.icon !== icon) {
-      this.icon = icon;
-      this.play.replaceChildren(drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" }, drawn("path", { d: ICONS[icon], fill: "currentColor" })));
-      this.play.setAttribute("aria-label", texts[icon]);
-    }
-    this.range.value = String(t);
     const tilt = scene.curves[0].at(t, TILT), digits = scene.step.speed ? 3 : 2;
     this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, digits], tilt: [tilt, 0], headline: "" }));
     const stopped = !scene.record.asked && !time.playing && t > time.end - 0.03 * this.whole;
     this.note.textContent = stopped ? say(texts, texts.lesson.before, { t: [time.end, digits] }) : "";
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }

@@ -1,5 +1,7 @@
 // The picture of a step: curves as far as they have been seen, or the section with the two lever arms of a push.
-import { ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../lab/curves.js";
+import { onBoth } from "../colours.js";
+import { digitsOf, ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../lab/curves.js";
+import { levels, marks as marksOf, times } from "../lab/line.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { float32 } from "../data.js";
 import { Arms } from "./arms.js";
@@ -84,7 +86,7 @@ export class Graph {
     const { graph } = this.scene.step;
     const lines = graph.curves.map(({ word, key, colour, dash, x, y }) => {
       const [xs, ys] = [float32(x), float32(y)];
-      return { word: key === "zero" ? "" : word, colour, dash: { dashed: "7 4", dotted: "2 4" }[dash], points: Array.from(xs, (value, i) => [value, ys[i]]) };
+      return { word: key === "zero" ? "" : word, colour: onBoth(colour), dash: { dashed: "7 4", dotted: "2 4" }[dash], points: Array.from(xs, (value, i) => [value, ys[i]]) };
     });
     return { time: graph.of === "t", unit: "", lines, marks: graph.points, zero: false };
   }
@@ -97,14 +99,10 @@ export class Graph {
     const [x0, x1] = time ? [0, step.end] : span(0), [low, high] = span(1), pad = 0.08 * (high - low || 1);
     const [y0, y1] = [zero ? Math.min(low - (low < 0 ? 2 * pad : 0), 0) : low - 2 * pad, high + pad]; // room for words below, too
     const x = (value) => LEFT + ((right - LEFT) * (value - x0)) / (x1 - x0 || 1), y = (value) => bottom - ((bottom - TOP) * (value - y0)) / (y1 - y0);
-    const found = [];
-    const marked = ticks(y0, y1, Math.max(2, height / 60)), places = digits(marked);
-    for (const value of marked) {
-      const text = say(texts, value === marked.at(-1) && unit ? `{value} ${unit}` : "{value}", { value: [value, places] });
-      found.push(drawn("line", { class: value ? "grid" : "axis", x1: LEFT, x2: right, y1: y(value), y2: y(value) }), drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, text));
-    }
-    const across = ticks(x0, x1, width / 80), sides = digits(across);
-    for (const value of across) found.push(drawn("text", { x: x(value), y: bottom + 16, "text-anchor": "middle" }, say(texts, time && !value ? "{value} s" : "{value}", { value: [value, value ? sides : 0] })));
+    const marked = ticks(y0, y1, Math.max(2, height / 60)), places = digitsOf(marked), along = ticks(x0, x1, width / 80), sides = digitsOf(along);
+    const number = (value) => say(texts, value === marked.at(-1) && unit ? `{value} ${unit}` : "{value}", { value: [value, places] });
+    const found = [...levels(marked, { y, left: LEFT, right }, number),
+      ...marksOf(along, { x, bottom }, time ? times(texts, sides) : (value) => say(texts, "{value}", { value: [value, value ? sides : 0] }))];
     const clip = drawn("rect", { x: 0, y: 0, width, height });
     const of = (points) => points.map((point, i) => (point.every(Number.isFinite) ? `${i && points[i - 1].every(Number.isFinite) ? "L" : "M"}${x(point[0]).toFixed(1)} ${y(point[1]).toFixed(1)}` : "")).join("");
     const paths = lines.flatMap(({ points, kind, colour, dash, fill }) => [
@@ -169,5 +167,3 @@ export class Graph {
     this.resizing.disconnect();
   }
 }
-
-const digits = (marks) => (marks.length > 1 ? Math.max(0, Math.ceil(-Math.log10(marks[1] - marks[0]) - 1e-9)) : 0);

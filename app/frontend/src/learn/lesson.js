@@ -8,7 +8,7 @@ import { ask, coalesce } from "../data.js";
 import { Bar } from "./bar.js";
 import { Graph } from "./graph.js";
 import { PhoneSide } from "./phone_side.js";
-import { Presenter, wishOf, writes } from "./present.js";
+import { hideOthers, Presenter, wishOf, writes } from "./present.js";
 import { Question } from "./question.js";
 import { Stage } from "./stage.js";
 import { style } from "./style.js";
@@ -130,6 +130,7 @@ class Lesson {
   present(presenting) {
     if (this.presenting === presenting) return;
     this.presenting = presenting;
+    hideOthers(this.frame, presenting);
     this.frame.classList.toggle("presenting", presenting);
     this.element.classList.toggle("present", presenting);
     if (presenting) {

@@ -20,13 +20,21 @@ export function wishOf(event, presenting) {
 export const writes = (event) => /** @type {Element[]} */ (event.composedPath()).some((node) =>
   node.matches?.("input:not([type=radio]):not([type=range]), textarea, select, [contenteditable]"));
 
+// What the big screen covers is not there for a keyboard or a screen reader either.
+/** @param {HTMLElement} frame @param {boolean} hidden */
+export function hideOthers(frame, hidden) {
+  for (let here = /** @type {any} */ (frame); here && here !== document.body; here = here.parentElement ?? here.getRootNode().host) {
+    for (const other of here.parentNode?.children ?? []) if (other !== here) other.inert = hidden;
+  }
+}
+
 export class Presenter {
   /** @param {Record<string, any>} texts @param {(wish: string) => void} wish */
   constructor(texts, wish) {
     this.texts = texts;
     const { room } = texts.lesson;
     this.options = part("ol", { class: "letters" });
-    this.code = part("div", { class: "qr" });
+    this.code = part("div", { class: "qr", role: "img" });
     this.link = part("p", { class: "link-said" });
     this.warning = part("p", { class: "warning", role: "alert" });
     this.count = part("p", { class: "count", role: "status" });
@@ -38,7 +46,7 @@ export class Presenter {
     this.dots = part("span", { class: "dots" });
     this.hidden = part("span");
     this.foot = part("footer", { class: "foot" }, this.dots, this.hidden,
-      part("span", { class: "keys" }, ...KEYS.map(([key, name]) => part("button", { type: "button", onclick: () => wish(name) }, part("kbd", {}, key), room.keys[name]))));
+      part("span", { class: "keys" }, ...KEYS.map(([key, name]) => part("button", { type: "button", onclick: () => wish(name) }, part("kbd", {}, key), " ", room.keys[name]))));
   }
 
   /** @param {any} step @param {any} record @param {any} room @param {{ steps: any[], lost: boolean, back: boolean }} around */
@@ -51,6 +59,7 @@ export class Presenter {
     this.told.replaceChildren(...(done ? [...step.told, `<b>${texts.lesson.learned}:</b> ${step.learned}`].map((words) => Object.assign(part("p"), { innerHTML: words })) : []));
     if (room.picture !== this.picture) this.code.innerHTML = this.picture = room.picture ?? "";
     this.code.hidden = !open || done;
+    this.code.setAttribute("aria-label", open ? room.address : "");
     this.link.textContent = open && !done ? room.address.replace(/^https?:\/\//, "") : "";
     this.warning.textContent = back ? said.back : lost ? said.lost : room.said || (room.local && !done ? said.local : "");
     this.count.replaceChildren(...(open ? room.phones ? [part("b", {}, String(room.voted)), ` ${say(texts, said.voted, { phones: room.phones })}`] : [said.nobody] : []));

@@ -1,19 +1,19 @@
 // Cohen's top by several laws of friction, and by Coulomb's in steps whose length a slider chooses.
 import { drawn, part, say } from "../lab/parts.js";
 import { coalesce } from "../data.js";
+import { frame } from "../controls/frame.js";
 import { Graph } from "./graph.js";
 import { style } from "./style.js";
 
 /** @param {Rendering<StepsModel>} rendering */
-export function renderSteps({ model, el }) {
-  const { texts } = model, said = texts.steps;
+export function renderSteps(rendering) {
+  const { model } = rendering, { texts } = model, said = texts.steps;
   const graph = new Graph(texts);
   const range = part("input", { type: "range", min: 0, max: 0, step: 1, value: 0, "aria-label": said.step, oninput: () => show() });
   const chosen = part("output");
   const list = part("ul", { "aria-live": "polite" });
   const label = part("label", { class: "step" }, part("span", {}, said.step), range, chosen);
-  const frame = part("div", { class: "frame" }, graph.element, label, list);
-  frame.classList.add("steps");
+  const showing = coalesce(show);
 
   function show() {
     const steps = model.curves.filter(({ step }) => step), laws = model.curves.filter(({ step }) => !step);
@@ -32,12 +32,8 @@ export function renderSteps({ model, el }) {
 
   const swatch = (colour, dash) => drawn("svg", { class: "swatch", viewBox: "0 0 26 8", "aria-hidden": "true" },
     drawn("path", { class: "line", d: "M1 4H25", stroke: colour, "stroke-dasharray": { dashed: "7 4", dotted: "2 4" }[dash] }));
-  const look = () => { frame.dataset.look = document.documentElement.dataset.look?.startsWith("dark") ? "dark" : "light"; };
-  const listening = new AbortController(), showing = coalesce(show);
-  window.addEventListener("tippe:look", look, listening);
   model.on("curves", showing);
-  model.on("remove", () => { listening.abort(); graph.leave(); });
-  el.replaceChildren(part("style", {}, style), frame);
-  look();
+  model.on("remove", () => graph.leave());
+  frame(rendering, style, graph.element, label, list).classList.add("steps");
   show();
 }

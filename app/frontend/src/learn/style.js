@@ -1,5 +1,6 @@
 // The style of the lesson: the question on top, a large picture of the top, and beside it the possible guesses and the
 // graph.
+import { colours } from "../colours.js";
 import { shared } from "../controls/style.js";
 
 const places = `
@@ -16,9 +17,8 @@ const places = `
 .stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
 .tops { position: absolute; inset: 0; display: flex; } .place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
 .pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
-.caption, .cover { position: absolute; left: 0; right: 0; text-align: center; color: var(--scene-ink, #1d2733); padding: 0 8px; pointer-events: none; }
+.caption, .cover { position: absolute; left: 0; right: 0; text-align: center; color: var(--scene-ink); padding: 0 8px; pointer-events: none; }
 .caption { bottom: 14px; font-weight: 600; } .caption svg { display: inline-block; vertical-align: 2px; margin-right: 4px; } .cover { top: 45%; }
-[data-look=dark] :is(.caption, .cover) { color: var(--ink); }
 .wait { position: absolute; left: 16px; right: 16px; top: 45%; text-align: center; }
 .waits :is(.pill, .tops) { visibility: hidden; }
 .bar { grid-area: bar; display: grid; grid-template-columns: 48px minmax(0, 1fr); gap: 0 8px; align-items: center; align-content: start; min-width: 0; }
@@ -32,8 +32,7 @@ const places = `
 .at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; } .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
 .side { display: flex; flex-direction: column; gap: 10px; min-width: 0; }
 .picture { min-width: 0; flex: 1; display: flex; flex-direction: column; max-height: 330px; } .picture .plot { position: relative; flex: 1; min-height: 170px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
-.ways { position: absolute; top: 12px; right: 12px; display: grid; gap: 4px; } .ways figure { margin: 0; text-align: center; } .ways svg { width: 76px; height: 76px; margin: 0 auto; } .ways figcaption { font-size: var(--t-s); color: var(--scene-ink, #1d2733); }
-[data-look=dark] .ways figcaption { color: var(--ink); }
+.ways { position: absolute; top: 12px; right: 12px; display: grid; gap: 4px; } .ways figure { margin: 0; text-align: center; } .ways svg { width: 76px; height: 76px; margin: 0 auto; } .ways figcaption { font-size: var(--t-s); color: var(--scene-ink); }
 .ways .rim { fill: color-mix(in srgb, var(--ground) 75%, transparent); stroke: var(--line-2); } .ways .line { stroke-width: 4; } .tip.own { fill: var(--q-spin); } .tip.turning { fill: var(--ink); }
 .axis-name { text-align: right; font-size: var(--t-s); color: var(--ink-2); } .axis-name:empty { display: none; }
 .more { grid-area: more; display: flex; flex-wrap: wrap; gap: 0 20px; } .more .link { font-weight: 400; color: var(--ink-2); }
@@ -61,8 +60,8 @@ const drawings = `
 .line { fill: none; stroke-width: 2; stroke-linejoin: round; } .own { stroke: var(--q-spin); } .turning { stroke: var(--ink); } .energy { stroke: var(--q-energy); } .first { stroke: var(--line-2); }
 svg text.own { fill: var(--q-spin); stroke: none; } svg text { stroke: none; } svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; }
 .spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .picture .now { stroke: var(--accent); stroke-width: 2; } .mark { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
-.hull { fill: color-mix(in srgb, #d9b48a 45%, var(--ground)); stroke: var(--q-energy); } .table { stroke: var(--ink); stroke-width: 1.5; } .thin { stroke: var(--line-2); stroke-dasharray: 5 4; fill: none; }
-.arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--accent); } svg text.upright { fill: var(--accent); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
+.hull { fill: color-mix(in srgb, ${colours.wood} 45%, var(--ground)); stroke: var(--q-energy); } .table { stroke: var(--ink); stroke-width: 1.5; } .thin { stroke: var(--line-2); stroke-dasharray: 5 4; fill: none; }
+.arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--q-jellett); } svg text.upright { fill: var(--q-jellett); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
 `;
 
 const present = `
@@ -80,7 +79,7 @@ const present = `
 .warning { border-left: 4px solid var(--ink); padding-left: 12px; } .counted { margin-top: auto; position: sticky; bottom: 0; background: var(--ground); display: flex; align-items: center; justify-content: space-between; gap: 16px; } .count b { font-size: 2em; } .present .primary { min-height: 64px; padding: 0 36px; }
 .present .bar .plot { height: 150px; } .keys { display: flex; gap: 4px; flex-wrap: wrap; } .keys button { min-height: 36px; padding: 0 8px; } kbd { font: inherit; border: 1px solid var(--line-2); border-radius: 4px; padding: 0 6px; margin-right: 6px; }
 .dots i { display: inline-block; width: 12px; height: 12px; border-radius: 6px; margin-right: 8px; box-shadow: inset 0 0 0 1.5px var(--line-2); } .dots .here { width: 32px; background: var(--accent); box-shadow: none; }
-.lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0; --stage: 280px; min-height: 100vh; min-height: 100svh; } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture, .end) { display: none; } .lesson[data-role=phone] .right { display: contents; }
+.lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0; --stage: 280px; min-height: var(--page, 100svh); } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture, .end) { display: none; } .lesson[data-role=phone] .right { display: contents; }
 .lesson[data-role=phone][data-picture=arms] .picture { display: flex; order: 1; flex: none; height: var(--stage); padding: 8px 16px; }
 .lesson[data-role=phone] .stage { order: 1; height: var(--stage); flex: none; } .lesson[data-role=phone] :is(.phone-head, .phone-foot) { display: flex; align-items: center; gap: 12px; padding: 8px 16px; }
 .lesson[data-role=phone] .phone-head { order: 0; position: relative; height: 48px; padding: 0 16px; margin-bottom: -8px; } .lesson[data-role=phone] .question { order: 2; font-size: 20px; padding: 0 16px; } .lesson[data-role=phone] .side { display: flex; order: 3; padding: 0 16px; } .lesson[data-role=phone] .side > * { padding: 0; }

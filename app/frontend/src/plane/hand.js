@@ -1,4 +1,5 @@
 // A hand on Fig. 6: what it grabs, what it asks for, and what it is told. The bead moves the clock, in the browser alone.
+import { set } from "../data.js";
 import { clamp, nearestRow, timeAtTilt } from "../figures/curves.js";
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { seek } from "../figures/seeking.js";
@@ -124,7 +125,7 @@ export class Hand {
   }
 
   ask(grip, theta, K_J) {
-    this.figure.set("hand", [grip, clamp(theta, 0, Math.PI), K_J]);
+    set(this.figure.model, "hand", [grip, clamp(theta, 0, Math.PI), K_J]);
   }
 
   // The clock may be in a later nutation than the one that is known.

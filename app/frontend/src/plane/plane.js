@@ -1,6 +1,6 @@
 // Fig. 6: which motions roll, the selected one with its bead at the time of the clock, and where it goes if it slips.
 import { followLook } from "../controls/look.js";
-import { coalesce, fill, float32, local } from "../data.js";
+import { coalesce, fill, float32, local, set } from "../data.js";
 import { spotOf, valueAt } from "../figures/curves.js";
 import { timeOf } from "../motion/clock.js";
 import { nameOf, ROLLS } from "../regimes.js";
@@ -49,7 +49,7 @@ export class PlaneFigure {
     this.drawing = this.picture.element;
     this.old = part("b", { class: "small", role: "status" });
     this.roads = Object.fromEntries(["slip", "paper"].map((road) =>
-      [road, part("button", { type: "button", class: "outline", hidden: true, onclick: () => this.set("pressed", [++this.presses, road]) }, texts.roads[road])]));
+      [road, part("button", { type: "button", class: "outline", hidden: true, onclick: () => set(model, "pressed", [++this.presses, road]) }, texts.roads[road])]));
     this.symbols = Object.fromEntries(["up", "down", "across"].map((name) => [name, part("span", { class: `symbol ${name}` })]));
     for (const [name, symbol] of Object.entries(this.symbols)) symbol.innerHTML = texts[name]; // as Python wrote it, with its meaning
     const { up, down, across } = this.symbols;
@@ -63,15 +63,6 @@ export class PlaneFigure {
     this.resizing.observe(this.drawing);
     this.unfollow = followLook(this.frame, () => this.update());
     this.report();
-  }
-
-  // Sets a value of the model. While Bokeh is connecting again it throws: then the figure goes on, as without a server.
-  set(name, value) {
-    try {
-      this.model[name] = value;
-    } catch (error) {
-      if (!(error instanceof DOMException)) throw error;
-    }
   }
 
   get shown() {

@@ -1,11 +1,9 @@
 // The style of Fig. 6, with the tokens of the Lab.
-import { colours, onDark } from "../colours.js";
 import { shared } from "../controls/style.js";
 
 const own = `
 :host { display: block; }
-.frame { --ground: var(--card, #fff); --q-jellett: ${colours.jellett}; --q-routh: ${colours.routh}; --q-force: ${colours.normal}; height: 100%; background: none; }
-.frame[data-look=dark] { --ground: var(--card, #0e1318); --q-jellett: ${onDark.jellett}; --q-routh: ${onDark.routh}; --q-force: ${onDark.normal}; }
+.frame { height: 100%; background: none; }
 .plane { height: 100%; display: flex; flex-direction: column; user-select: none; -webkit-user-select: none; }
 .plane .titled { flex: none; justify-content: flex-start; gap: 8px 16px; min-height: max(36px, var(--touch)); }
 .plane .titled b { flex: 1; } .plane .outline { padding: 4px 12px; min-height: var(--touch); } .titled .outline:first-of-type { margin-left: auto; }

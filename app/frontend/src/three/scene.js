@@ -1,5 +1,5 @@
-// The colours of the 3-D pictures: those of objects, on a light page and on a dark one. Text takes its colours from CSS
-// variables, which look.js sets.
+// The colours of the 3-D pictures: those of objects, on a light page and on a dark one. Text takes its colours from
+// tokens.js.
 import { colours, onDark } from "../colours.js";
 
 export const scenes = {
@@ -14,11 +14,6 @@ export const scenes = {
     force: onDark.normal, omega: onDark.omega, momentum: onDark.momentum,
   },
 };
-export const words = {
-  light: { "--scene": "#f1efea", "--scene-ink": "#1d2733", "--scene-faint": "#4a5563", "--pill": "#ffffffe6", "--halo": "#fff" },
-  dark: { "--scene": "#191f25", "--scene-ink": "#eef2f6", "--scene-faint": "#b6c1cc", "--pill": "#0e1318e6", "--halo": "#0e1318" },
-};
-
 const now = () => scenes[document.documentElement.dataset.look?.startsWith("dark") ? "dark" : "light"];
 
 // dress(scene) runs now and whenever the look changes, until the returned function is called.

@@ -101,7 +101,7 @@ export class Surface {
     this.lines.show(this.grid, model, limit.colour);
     this.key.innerHTML =
       `<span style="--swatch: ${limit.colour}">${limit.text}</span>` +
-      `<span style="--swatch: var(--scene-ink, #1d2733)">${texts.steady}</span><span style="--swatch: ${colours.theta}">${texts.motion}</span>`;
+      `<span style="--swatch: var(--scene-ink)">${texts.steady}</span><span style="--swatch: ${colours.theta}">${texts.motion}</span>`;
     this.showSelected();
     this.hand.refresh();
     this.stage.invalidate();

@@ -47,7 +47,7 @@ class Top {
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
     this.impulse = model.pushes ? new Impulse(stage, this.scene) : null;
     this.flick = model.flick && this.impulse ? new Flick(stage, this.scene, this.player, model.flick, this.impulse) : null;
-    this.bar = new Bar(root, picture, model, this.player, () => {
+    this.bar = model.bare ? null : new Bar(root, picture, model, this.player, () => {
       model.camera = [];
       this.look();
     });
@@ -72,8 +72,9 @@ class Top {
     model.on("profile", () => this.newProfile());
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
     if (this.measured) model.on("measured", () => this.newMeasured());
-    for (const name of ["before", "azimuth"]) model.on(name, () => this.ghost?.show(model.before ?? null, model.azimuth));
-    model.on("azimuth", onFrames);
+    const { ghost } = this;
+    if (ghost) for (const name of ["before", "azimuth"]) model.on(name, () => ghost.show(model.before ?? null, model.azimuth));
+    if (ghost) model.on("azimuth", onFrames);
     const onHighlight = ({ detail }) => {
       this.highlight = detail;
       this.scene.pointedTip.element.textContent = detail?.label ?? "";
@@ -131,7 +132,7 @@ class Top {
       verdict.textContent = word;
       verdict.style.setProperty("--verdict", colour);
     }
-    this.bar.update(this.model.seconds);
+    this.bar?.update(this.model.seconds);
     this.place.say(word);
   }
 

@@ -1,23 +1,21 @@
 // A top that moves once, on its own clock: a button that plays it, the time and the tilt; for a measured film, also the
 // axis as seen on it.
 import { Top } from "../lab/top.js";
-import { drawn, part, say } from "../lab/parts.js";
-import { colours } from "../colours.js";
+import { icon, part, say } from "../lab/parts.js";
 import { coalesce, float32 } from "../data.js";
 import { seek } from "../figures/seeking.js";
 
 const PACE = 1 / 8; // in units of the real top's speed
 const STYLE = `<style>
-  .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene, #f1efea) }
+  .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene) }
   .top { position: absolute; inset: 0 }
-  .pill { position: absolute; left: 16px; bottom: 12px; padding: 4px 12px; border-radius: 16px; background: var(--pill, #fff);
-    color: var(--scene-ink, #1b2430); font: 600 calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); font-variant-numeric: tabular-nums; pointer-events: none }
-  .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--scene-faint, #55606c) }
+  .pill { position: absolute; left: 16px; bottom: 12px; padding: 4px 12px; border-radius: 16px; background: var(--pill);
+    color: var(--scene-ink); font: 600 calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); font-variant-numeric: tabular-nums; pointer-events: none }
+  .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--scene-faint) }
   button { position: absolute; right: 16px; bottom: 12px; width: 44px; height: 44px; border: 0; border-radius: 50%; cursor: pointer;
-    display: grid; place-items: center; background: var(--scene-ink, #1b2430); color: var(--scene, #fff) }
-  button:focus-visible { outline: 3px solid var(--focus, ${colours.accent}); outline-offset: 2px }
+    display: grid; place-items: center; background: var(--scene-ink); color: var(--scene) }
+  button:focus-visible { outline: 3px solid var(--focus); outline-offset: 2px }
   [hidden] { display: none !important }</style>`;
-const PLAY = "M4 2l12 7-12 7z", PAUSE = "M4 2h4v14H4zm7 0h4v14h-4z";
 
 /** @param {Rendering<FilmStageModel>} rendering */
 export function renderFilmStage({ model, el, view }) {
@@ -26,17 +24,16 @@ export function renderFilmStage({ model, el, view }) {
   el.innerHTML = STYLE;
   const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
   Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
-  const pill = part("div", { class: "pill", hidden: true }), shape = drawn("path", { d: PLAY, fill: "currentColor" });
+  const pill = part("div", { class: "pill", hidden: true });
   const none = part("p", { class: "none" }, model.none);
-  const play = part("button", { onclick: () => put({ playing: !top.model.playing }) },
-    drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" }, shape));
+  const play = part("button", { onclick: () => put({ playing: !top.model.playing }) });
   el.append(part("div", { class: "film" }, top.element, pill, none, play));
 
   function put(changes) {
     top.put(changes);
-    const { playing } = top.model;
-    shape.setAttribute("d", playing ? PAUSE : PLAY);
-    play.setAttribute("aria-label", playing ? texts.pause : texts.play);
+    const name = top.model.playing ? "pause" : "play";
+    play.replaceChildren(icon(name));
+    play.setAttribute("aria-label", texts[name]);
   }
   let tilts = new Float32Array(), shown = model.frames, shows = false;
   const hear = ({ detail: { t, index, playing } }) => {

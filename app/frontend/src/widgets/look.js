@@ -2,20 +2,13 @@
 // Bokeh figure is drawn on a canvas, so its colours and sizes are replaced here.
 import { colours, onDark } from "../colours.js";
 import { coalesce } from "../data.js";
-import { endColours } from "../ends.js";
-import { words } from "../three/scene.js";
+import { tokensOf, wear } from "../tokens.js";
 
 const LARGER = 1.35;
-const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff", "#d9b98c", colours.accent]; // and grid and background of app/widgets/plots.py, wood of a section
-const looks = {
-  light: INKS,
-  "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff", "#d9b98c", colours.accent],
-  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#0e1318", "#75592f", onDark.accent],
-  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#0e1318", "#75592f", onDark.accent],
-};
+// What a figure is drawn with on a light page, with grid and background of app/widgets/plots.py; and its tokens.
+const INKS = { [colours.ink]: "ink", [colours.faint]: "outline", "#e7ebef": "rule", "#ffffff": "card", [colours.accent]: "accent" };
 // of a quantity: its colour on a light page, and that on a dark one
 const DARK = new Map(Object.entries(onDark).map(([name, dark]) => [colours[name].toLowerCase(), dark]));
-const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2", "dark large": "#e3e8ed" };
 
 const isColour = (property) => property.endsWith("_color");
 
@@ -26,19 +19,12 @@ function exchange(value, as) {
 }
 
 // Sets CSS variables of the document's root.
-/** @param {LookModel} model @param {string} name that of the look @param {boolean} dark */
-function setVariables(model, name, dark) {
-  const [ink, , line, paper] = looks[name], { style, dataset } = document.documentElement;
-  const quantities = dark ? onDark : colours;
-  const values = {
-    ...Object.fromEntries(Object.keys(onDark).map((each) => [`--${each}`, quantities[each]])),
-    "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper,
-    "--focus": quantities.accent, "--link": quantities.accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
-  };
-  for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
-  style.colorScheme = dark ? "dark" : "light"; // for what the browser draws itself
+/** @param {LookModel} model @param {string} name that of the look */
+function setVariables(model, name) {
+  const { style } = document.documentElement;
+  wear(name);
+  style.setProperty("--type", model.large ? String(LARGER) : "");
   style.fontSize = model.large ? `${100 * LARGER}%` : "";
-  dataset.look = name;
   window.dispatchEvent(new CustomEvent("tippe:look"));
 }
 
@@ -66,7 +52,7 @@ class Look {
 
   dress(part) {
     const { name, model: { large } } = this;
-    const ink = (value) => looks[name][INKS.indexOf(value.toLowerCase())] ?? (name.startsWith("dark") ? DARK.get(value.toLowerCase()) : undefined) ?? value;
+    const tokens = tokensOf(name), ink = (value) => tokens[INKS[value.toLowerCase()]] ?? (name.startsWith("dark") ? DARK.get(value.toLowerCase()) : undefined) ?? value;
     const size = (value) => (large ? value.replace(/^[\d.]+(?=px)/, (now) => String(LARGER * now)) : value);
     const wanted = Object.entries(this.own(part)).map(([property, value]) => [property, exchange(value, isColour(property) ? ink : size)]);
     if (wanted.length) part.setv(Object.fromEntries(wanted), { sync: false });
@@ -86,7 +72,7 @@ class Look {
   update = () => {
     const { isDark: dark, model: { large } } = this;
     this.name = `${dark ? "dark" : "light"}${large ? " large" : ""}`;
-    setVariables(this.model, this.name, dark);
+    setVariables(this.model, this.name);
     this.dressAll();
   };
 

@@ -4,17 +4,17 @@ import { colours } from "../colours.js";
 import { fill } from "../data.js";
 
 const FRAME = `<style>
-  .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430) }
+  .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink) }
   label { display: inline-flex; align-items: center; min-height: 40px; padding: 0 20px; border-radius: 6px; font-weight: 600; cursor: pointer;
-    background: var(--ink, #1b2430); color: var(--card, #fff); white-space: nowrap }
-  label:focus-within { outline: 3px solid var(--focus, ${colours.accent}); outline-offset: 2px }
+    background: var(--ink); color: var(--card); white-space: nowrap }
+  label:focus-within { outline: 3px solid var(--focus); outline-offset: 2px }
   input { position: absolute; opacity: 0; width: 1px; height: 1px }
   textarea { flex: 1 1 calc(168px * var(--type, 1)); min-width: 0; height: calc(40px * var(--type, 1)); font: inherit; color: inherit; background: transparent; resize: none;
     border: 1px solid #8b949e; border-radius: 6px; padding: 9px 10px; box-sizing: border-box }
-  .says { flex: 1 0 100%; color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) } .says:empty { display: none }
+  .says { flex: 1 0 100%; color: var(--faint); font-size: calc(12px * var(--type, 1)) } .says:empty { display: none }
   .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.accent}26; pointer-events: none;
-    border: 3px dashed var(--focus, ${colours.accent}); box-sizing: border-box; font: 600 calc(20px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink, #1b2430) }
-  .over b { background: var(--card, #fff); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }</style>
+    border: 3px dashed var(--focus); box-sizing: border-box; font: 600 calc(20px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink) }
+  .over b { background: var(--card); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }</style>
   <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,.zip,.xlsx,.xlsm,.xls,.ods,.trk,.trz,text/*"></label><textarea rows="1"></textarea>
     <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
 const ABOVE = 3; // lines above the values that a table may have

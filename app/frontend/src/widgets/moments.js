@@ -4,12 +4,12 @@ import { latest } from "../lab/curves.js";
 import { part } from "./parts.js";
 
 const style = `
-ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; color: var(--ink, #22303c); }
+ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; color: var(--ink); }
 button { display: grid; grid-template-columns: 4em 1fr 1.4fr; gap: 0 10px; width: 100%; min-height: 24px; padding: 3px 8px; border: 0;
   border-radius: 6px; background: none; font: inherit; color: inherit; text-align: left; cursor: pointer; font-variant-numeric: tabular-nums; }
 button:hover { background: color-mix(in srgb, currentColor 8%, transparent); }
-button:focus-visible { outline: 2px solid var(--focus, #1565c0); outline-offset: -2px; }
-b { font-weight: 600; } span { color: var(--faint, #5b6875); } i { font-family: Georgia, serif; } sub { font-size: 0.75em; line-height: 0; }
+button:focus-visible { outline: 2px solid var(--focus); outline-offset: -2px; }
+b { font-weight: 600; } span { color: var(--faint); } i { font-family: Georgia, serif; } sub { font-size: 0.75em; line-height: 0; }
 button[aria-current] { box-shadow: inset 3px 0 0 currentColor; }
 @media (max-width: 700px) { button { grid-template-columns: 4.2em 1fr; } span:last-child { grid-column: 2; } }
 `;

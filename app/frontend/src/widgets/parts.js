@@ -16,6 +16,15 @@ export const part = (name, attributes = {}, ...children) => dress(document.creat
 /** @param {string} name @param {Record<string, any>} attributes @param {any[]} children @returns {any} */
 export const drawn = (name, attributes = {}, ...children) => dress(document.createElementNS(DRAWING, name), attributes, children);
 
+const ICONS = {
+  play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z", again: "M4 4v4h4M4.500 8a6 6 0 1 1-.6 4",
+  back: "M3 3h2v12H3zM15 3v12L6 9z", forward: "M13 3h2v12h-2zM3 3l9 6-9 6z",
+};
+
+/** @param {"play" | "pause" | "again" | "back" | "forward"} name */
+export const icon = (name) => drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" },
+  drawn("path", { d: ICONS[name], ...(name === "again" ? { fill: "none", stroke: "currentColor", "stroke-width": 2 } : { fill: "currentColor" }) }));
+
 // One of several buttons is chosen; the arrow keys move between them, as between radio buttons.
 export class Choice {
   /**

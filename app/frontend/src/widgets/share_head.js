@@ -6,15 +6,15 @@ const SAID_MS = 1500;
 const CODE = "background: white; padding: 0; line-height: 0";
 const STYLE = `
 :host { display: block; max-height: none !important; } * { box-sizing: border-box; } [hidden] { display: none !important; }
-.all { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430); }
+.all { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink); }
 .line { display: flex; align-items: center; gap: 8px; } h2 { flex: 1; margin: 0; font-size: calc(18px * var(--type, 1)); font-weight: 600; letter-spacing: -.01em; }
 button { font: inherit; color: inherit; border: 0; background: none; border-radius: 6px; min-height: calc(32px * var(--type, 1)); padding: 0 10px; cursor: pointer; white-space: nowrap; }
 button:hover { background: color-mix(in srgb, currentColor 8%, transparent); } :focus-visible { outline: 3px solid; outline-offset: 2px; }
-input { flex: 1; min-width: 0; font: inherit; color: inherit; background: none; border: 0; border-bottom: 1px solid var(--faint, #8b949e); border-radius: 0; height: 40px; padding: 0 2px; text-overflow: ellipsis; }
-.copy { background: var(--ink, #1b2430); color: var(--card, #fff); font-weight: 600; min-height: 40px; padding: 0 20px; min-width: 150px; }
-.copy:hover { background: color-mix(in srgb, var(--ink, #1b2430) 85%, var(--card, #fff)); }
+input { flex: 1; min-width: 0; font: inherit; color: inherit; background: none; border: 0; border-bottom: 1px solid var(--faint); border-radius: 0; height: 40px; padding: 0 2px; text-overflow: ellipsis; }
+.copy { background: var(--ink); color: var(--card); font-weight: 600; min-height: 40px; padding: 0 20px; min-width: 150px; }
+.copy:hover { background: color-mix(in srgb, var(--ink) 85%, var(--card)); }
 .code { width: min(100%, clamp(260px, 100vh - 560px, 440px)); margin: 12px auto; ${CODE}; } .code svg, .room svg { width: 100%; height: auto; display: block; shape-rendering: crispEdges; }
-p { margin: 0; flex: 1; font-size: calc(12px * var(--type, 1)); color: var(--faint, #5b6875); } .line button { font-size: calc(12px * var(--type, 1)); font-weight: 600; } .line .close { font-size: calc(14px * var(--type, 1)); width: 32px; padding: 0; } .line .copy { font-size: calc(14px * var(--type, 1)); }
+p { margin: 0; flex: 1; font-size: calc(12px * var(--type, 1)); color: var(--faint); } .line button { font-size: calc(12px * var(--type, 1)); font-weight: 600; } .line .close { font-size: calc(14px * var(--type, 1)); width: 32px; padding: 0; } .line .copy { font-size: calc(14px * var(--type, 1)); }
 .room { border: 0; padding: 0; width: 100vw; height: 100vh; max-width: none; max-height: none; background: white; color: black; }
 .room[open] { display: grid; grid-template-rows: 1fr auto; justify-items: center; } .room div { width: min(96vw, 100vh - 96px); ${CODE}; }
 .room p { font: 600 min(28px, 4vw)/1.3 system-ui, sans-serif; color: black; padding: 0 24px 16px; overflow-wrap: anywhere; text-align: center; } .room button { position: fixed; top: 8px; right: 8px; font-size: 18px; color: black; }

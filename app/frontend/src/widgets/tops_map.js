@@ -1,6 +1,5 @@
 // The map of all tops: a/R across and I1/I3 upwards determine which of them can turn over. Each known top is shown as
 // its silhouette, which can be clicked; the ring is the top of the page, which can be dragged.
-import { colours } from "../colours.js";
 import { fill, local } from "../data.js";
 import { clamp } from "../figures/curves.js";
 
@@ -13,14 +12,14 @@ const TICKS = [0, 0.1, 0.2, 0.3, 0.4], FAR_TICKS = [-10, -5], RATIO_TICKS = [0.4
 
 const STYLE = `<style>
   :host { display: block } svg { display: block; width: 100%; height: 100%; font: calc(12px * var(--type, 1)) var(--family, system-ui, sans-serif);
-    fill: var(--ink, #22303c); touch-action: pan-y } .area { --wood: #9a7434 } .axis { fill: var(--faint, #5b6875) }
-  .turns { fill: color-mix(in srgb, var(--wood) 50%, var(--card, #fff)) } .part { fill: color-mix(in srgb, var(--wood) 26%, var(--card, #fff)) }
-  .never { fill: color-mix(in srgb, var(--wood) 10%, var(--card, #fff)) } .line { stroke: var(--ink, #22303c); fill: none; stroke-width: 1.5 }
+    fill: var(--ink); touch-action: pan-y } .area { --wood: #9a7434 } .axis { fill: var(--faint) }
+  .turns { fill: color-mix(in srgb, var(--wood) 50%, var(--card)) } .part { fill: color-mix(in srgb, var(--wood) 26%, var(--card)) }
+  .never { fill: color-mix(in srgb, var(--wood) 10%, var(--card)) } .line { stroke: var(--ink); fill: none; stroke-width: 1.5 }
   .group { font-size: calc(17px * var(--type, 1)); font-weight: 600 } .small { font-size: calc(12px * var(--type, 1)) } .known { cursor: pointer; outline: none }
-  .known .shape { fill: color-mix(in srgb, var(--ink, #22303c) 78%, var(--card, #fff)); stroke: var(--card, #fff); stroke-width: 1.5 }
-  .known text { font-weight: 600; paint-order: stroke; stroke: color-mix(in srgb, var(--card, #fff) 70%, transparent); stroke-width: 3 } .ring { fill: none; stroke-width: 3.5 } .known:hover .shape, .known:focus .shape { fill: var(--ink, #22303c) }
-  .known:focus-visible .ring.of { stroke: var(--focus, ${colours.accent}); stroke-width: 3 } .here { cursor: grab; touch-action: none; outline: none }
-  .here .grip { fill: transparent } .here .ring, .here .line { stroke: var(--link, ${colours.accent}) } .chosen .ring.of { stroke: var(--ink, #22303c) }
+  .known .shape { fill: color-mix(in srgb, var(--ink) 78%, var(--card)); stroke: var(--card); stroke-width: 1.5 }
+  .known text { font-weight: 600; paint-order: stroke; stroke: color-mix(in srgb, var(--card) 70%, transparent); stroke-width: 3 } .ring { fill: none; stroke-width: 3.5 } .known:hover .shape, .known:focus .shape { fill: var(--ink) }
+  .known:focus-visible .ring.of { stroke: var(--focus); stroke-width: 3 } .here { cursor: grab; touch-action: none; outline: none }
+  .here .grip { fill: transparent } .here .ring, .here .line { stroke: var(--link) } .chosen .ring.of { stroke: var(--ink) }
   </style>`;
 
 /** type: the enlargement of the text. @typedef {{ wide: number, high: number, type: number }} Size @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
