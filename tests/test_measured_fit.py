@@ -175,8 +175,8 @@ def test_a_slipping_top_is_told_from_a_rolling_one(monkeypatch):
 @pytest.mark.slow
 @pytest.mark.parametrize("searches", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_a_number_that_leaves_no_trace_is_not_known(searches, monkeypatch):
-    """Of the tilt alone over a few frames, while the top has hardly begun to slip. A whole search, of the spin too, finds
-    other minima, which leave mu unknown too."""
+    """Of the tilt alone over a few frames, while the top has hardly begun to slip. A whole search, of the spin too,
+    finds other minima, which leave mu unknown too."""
     (_, top, scales, truth), data = film(1002, what=("tilt",))
     if not searches:
         from_here(truth, monkeypatch)
