@@ -7,7 +7,7 @@ import pytest
 from axe import DARK, LIGHT, check
 from doubles import by_hand
 from playwright.sync_api import expect
-from visiting import IN_SIGHT, PIXEL, Visit, entry, open_panel, wait
+from visiting import IN_SIGHT, PIXEL, WHOLE, Visit, entry, open_panel, wait
 
 from app.model.explorer import Explorer
 from app.model.lab.lab import scene_of
@@ -112,10 +112,11 @@ def test_what_rolls_is_tippe_cores(visit):
     after_a_slider_moved_the_figure_is_tippe_cores(page)
 
 
-def test_research_and_back_is_the_same_canvas_whose_time_has_gone_on(chromium, server):
+def test_research_and_back_is_the_same_canvas_whose_time_goes_on_and_sends_nothing(chromium, server):
     with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
         visit = Visit(context.new_page(), f"{server}?v=4", whole=False)
         page = visit.page
+        assert page.title() == "Tippe top explorer"
         page.wait_for_function(f"window.__tippe?.top3d && {TOPS}.length && __tippe.top3d.t > 0")
         canvas = page.locator("canvas[aria-label^='The top']").first.element_handle()
         page.evaluate("canvas => { window.canvas = canvas }", canvas)
@@ -132,13 +133,8 @@ def test_research_and_back_is_the_same_canvas_whose_time_has_gone_on(chromium, s
         page.wait_for_function("location.search == '?v=4&level=research'")
         assert page.evaluate("__tippe.top3d.motions.received") == received  # no motion was computed for it
         assert not visit.errors
-
-
-def test_it_moves_at_once_and_sends_nothing(chromium, server):
-    with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
-        visit = Visit(context.new_page(), server)
-        page = visit.page
-        assert page.title() == "Tippe top explorer"
+        page.get_by_role("radio", name="Rough", exact=True).click()
+        page.wait_for_function(WHOLE)
         page.wait_for_function(
             "t => __tippe.top3d.t != t && __tippe.top3d.playing", arg=page.evaluate("__tippe.top3d.t")
         )
@@ -207,18 +203,18 @@ def test_the_panels_show_what_happened_and_an_example_sets_top_start_and_law(chr
         page.keyboard.press("Control+z")
         page.wait_for_function("!location.search.includes('law=')")
         check(page, "values", DARK)
+        open_panel(page, "Ends")
+        of_two_quick_clicks_on_the_map_the_second_counts(page)
 
 
-def test_of_two_quick_clicks_on_the_map_the_second_counts(chromium, server):
+def of_two_quick_clicks_on_the_map_the_second_counts(page):
     """Bokeh calls it a doubletap, though it is elsewhere. The first is where the map has the top of a preset."""
-    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
-        page = Visit(context.new_page(), f"{server}?v=4&level=research&panel=ends", whole=False).page
-        page.locator("[data-figure=planes-map]").evaluate(IN_SIGHT)
-        top = next(body for body in PRESETS if body.name == "Loaded sphere").shape.top
-        place = f"['x', 'y'].every((c, i) => Math.abs(({COLUMN})(['planes-map', c]).at(-1)[0] - place[i]) < 5e-3)"
-        page.mouse.click(*page.evaluate(PIXEL, ["planes-map", top.a, top.I1 / top.I3]))
-        page.wait_for_function(f"place => {place}", arg=[top.a, top.I1 / top.I3])
-        pixels = [page.evaluate(PIXEL, ["planes-map", *at]) for at in ([0.6, 0.7], [0.3, 0.7])]
-        page.mouse.click(*pixels[0])
-        page.mouse.click(*pixels[1])
-        page.wait_for_function(f"place => {place}", arg=[0.3, 0.7])
+    page.locator("[data-figure=planes-map]").evaluate(IN_SIGHT)
+    top = next(body for body in PRESETS if body.name == "Loaded sphere").shape.top
+    place = f"['x', 'y'].every((c, i) => Math.abs(({COLUMN})(['planes-map', c]).at(-1)[0] - place[i]) < 5e-3)"
+    page.mouse.click(*page.evaluate(PIXEL, ["planes-map", top.a, top.I1 / top.I3]))
+    page.wait_for_function(f"place => {place}", arg=[top.a, top.I1 / top.I3])
+    pixels = [page.evaluate(PIXEL, ["planes-map", *at]) for at in ([0.6, 0.7], [0.3, 0.7])]
+    page.mouse.click(*pixels[0])
+    page.mouse.click(*pixels[1])
+    page.wait_for_function(f"place => {place}", arg=[0.3, 0.7])

@@ -200,6 +200,14 @@ pages.generate_jwt_token = given
 """
 
 
+# What app/widgets/waiting.js does after some seconds waits for pass().
+HELD = """{ const { setTimeout: later } = window, held = [], itsOwn = /location\\.reload|isHere/
+window.setTimeout = (run, ...given) => itsOwn.test(String(run)) ? held.push(run) : later(run, ...given)
+window.pass = () => { held.splice(0).forEach((run) => run()) } }"""
+SAYS = "(text) => { window.pass(); return document.getElementById('waiting')?.textContent.includes(text) }"
+COMES = f"() => {{ window.pass(); return ({HERE})() }}"
+
+
 def hold(page, name):
     """Holds back a script of the page until the function that is returned is called."""
     held, free = [], []
@@ -239,17 +247,18 @@ def guest(url):
 @pytest.mark.served
 def test_a_page_that_is_refused_at_its_socket_says_why_and_comes(page, tmp_path):
     """Its scripts came too late; there was no room; and somebody in between closed it without a reason."""
+    page.add_init_script(HELD)
     with served(tmp_path / "log", code=OLD, sessions=1, linger=1) as server:
 
         def comes():
-            page.wait_for_function(HERE)
+            page.wait_for_function(COMES)
             wait(page, lambda: not page.locator("#waiting").count())
             page.goto("about:blank")
             until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
 
         go = hold(page, "/bokeh.min.js")
         page.goto(server.url, wait_until="commit")
-        page.get_by_text(say("main.server.coming", "en")).wait_for()
+        page.wait_for_function(SAYS, arg=say("main.server.coming", "en"))
         go()
         page.get_by_text(say("main.server.ended", "en")).wait_for()
         comes()  # by itself

@@ -1,10 +1,9 @@
 """Dragging in the pictures, in Chromium: what is dragged follows, and everything else with it."""
 
 import pytest
-from visiting import COLUMN, DRAWN, IN_SIGHT, PIXEL, WHOLE, Visit, entry, open_panel, wait
+from visiting import COLUMN, IN_SIGHT, Visit, entry, open_panel, wait
 
 from app.model.region import least_energy
-from app.model.scene import solve
 from tippe_core import Constants, Top, roll, tielines, turning_points
 
 pytestmark = pytest.mark.served
@@ -34,13 +33,6 @@ def until_selected(visit, **values):
         arg=values,
     )
     return selected(visit)
-
-
-def rests(visit):
-    """Whether nothing is sent for longer than a page waits for a hand to rest."""
-    before = len(visit.sent)
-    visit.page.wait_for_timeout(600)
-    return len(visit.sent) == before
 
 
 def field(visit, name):
@@ -84,7 +76,6 @@ def one(chromium, server):
     context = chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
     visit = Visit(context.new_page(), server)
     visit.page.wait_for_function(SELECTED)
-    visit.first_bead = selected(visit)["theta"]
     visit.first = {name: selected(visit)[name] for name in ("K_J", "inner", "outer")}
     yield visit
     context.close()
@@ -154,21 +145,6 @@ def test_what_is_read_of_a_place_covers_neither_bead_nor_tieline(visit):
         assert visit.page.evaluate(CLEAR, [ends, visit.pixel("plane", place["theta"], 7.0)])
 
 
-def test_the_bead_stands_at_the_motions_start_before_any_clock_moves(one):
-    """With reduced motion no clock runs; the bead is at the start of the motion, not at theta = 0."""
-    assert one.first_bead == pytest.approx(float(one.first["inner"]), abs=1e-4)
-
-
-def test_the_tieline_itself_is_K_J(visit):
-    stop_at_the_start(visit)
-    (x, y), (_, unit) = visit.pixel("plane", 0.62, 5.5), visit.pixel("plane", 0.62, 4.5)
-    to = round(y)  # the browser may tell whole pixels only
-    visit.drag(visit.pixel("plane", 0.62, 7.0), (x, to))
-    after = until_selected(visit, K_J=5.5 - (to - y) / (unit - y))
-    visit.page.mouse.up()
-    until_field(visit, "K_J", after["K_J"])
-
-
 def test_a_click_on_another_tieline_is_that_motion_at_its_limit(visit):
     visit.pause()
     visit.page.mouse.click(*visit.pixel("plane", 1.2, 3.01))
@@ -186,28 +162,6 @@ def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_say
     visit.page.get_by_text("It cannot roll here: it would lift off on the way").wait_for()
     visit.page.mouse.move(*visit.pixel("plane", 0.96, 6.0))
     visit.page.get_by_text("It cannot roll here: it would slip on the way").wait_for()
-
-
-def test_the_bead_moves_the_clock_and_nothing_else(visit):
-    stop_at_the_start(visit)
-    # it appears last
-    visit.page.wait_for_function("__tippe.plane.names.some((name) => name.startsWith('rolls again'))")
-    place, aim = selected(visit), 0.7
-    visit.drag(visit.pixel("plane", place["theta"], 7.0), visit.pixel("plane", aim, 7.3))
-    wait(visit.page, lambda: rests(visit))  # an earlier test may have requested something
-    visit.sent.clear()
-    visit.page.mouse.move(*visit.pixel("plane", aim - 0.02, 7.3))
-    # the nearest frame of 64 in a nutation
-    visit.page.wait_for_function(f"(aim) => Math.abs(({SELECTED})().theta - aim) < 0.02", arg=aim - 0.02)
-    constants = solve(TOP, 7.0, 10.0, 0.5, 0.9).constants
-
-    def at_the_clocks_time():
-        theta = roll(TOP, constants, [0.0, visit.page.evaluate("__tippe.top3d.t")]).theta[1]
-        return abs(theta - selected(visit)["theta"]) < 1e-3
-
-    wait(visit.page, at_the_clocks_time)
-    assert not visit.sent
-    visit.page.mouse.up()
 
 
 def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(visit):
@@ -270,32 +224,3 @@ def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(vis
         visit.page.wait_for_function(
             """([name, column, renderer, x]) => Math.abs(eval(column)([name, renderer, "x"])[0] - x) < 0.02""",
             arg=[figure, COLUMN, line + 1, x[i]])  # fmt: skip
-
-
-def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium, server):
-    phone = chromium.new_context(viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True,
-                                 reduced_motion="reduce", user_agent="Android Mobile")  # fmt: skip
-    visit = Visit(phone.new_page(), server, whole=False)
-    page, touch = visit.page, phone.new_cdp_session(visit.page)
-    page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})() && {DRAWN}")
-    assert not page.evaluate("__tippe.top3d.playing")  # because of reduced motion
-
-    def drag(x, y, by):
-        for kind, at in (("touchStart", y), *(("touchMove", y + by * i / 8) for i in range(1, 9)), ("touchEnd", None)):
-            points = [] if at is None else [{"x": x, "y": at}]
-            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-
-    top = "() => document.body.getClientRects().length && (" + PIXEL + ")(['plane', 0.62, 7])[1]"
-    page.evaluate_handle("__tippe.plane.bar").evaluate(IN_SIGHT)  # clear of the stage above and the rooms below
-    place = page.evaluate(top)
-    x, y = visit.pixel("plane", 0.62, 7.0)
-    drag(x, y, 60)
-    page.wait_for_function("/KJ=/.test(location.search)")  # once everything is at rest
-    K_J = selected(visit)["K_J"]
-    assert K_J < 6
-    assert page.evaluate(top) == pytest.approx(place, abs=1)
-    drag(*visit.pixel("plane", 1.4, 8.0), -120)
-    page.wait_for_function(f"place => ({top})() < place - 40", arg=place)
-    assert selected(visit)["K_J"] == K_J
-    phone.close()
-    assert not visit.errors

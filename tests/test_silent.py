@@ -19,12 +19,17 @@ from app.text import say
 
 pytestmark = [pytest.mark.served, pytest.mark.skipif(sys.platform == "win32", reason="no process is stopped there")]
 SILENT = "has not answered"
+# skip(ms): for the page so much more time has passed.
+SKIP = """{ const now = performance.now.bind(performance); let more = 0
+performance.now = () => now() + more
+window.skip = (ms) => { more += ms } }"""
 
 
 @pytest.fixture
 def page(chromium, page_errors):
     page_errors.allow(f"{LOST}|Failed to load Bokeh|Error rendering Bokeh items")
     page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+    page.add_init_script(SKIP)
     yield page
     page.close()
 
@@ -83,6 +88,12 @@ def line_to(server):
         line.close()
 
 
+def ask_in_vain(page):
+    """Clicks where no answer comes, and for the page seconds pass."""
+    page.get_by_role("radio", name="Rough").click()
+    page.evaluate("skip(6000)")
+
+
 def test_a_server_that_hangs_is_said_and_what_was_set_is_done_when_it_goes_on(page, tmp_path):
     with served(tmp_path / "log") as server:
         page.goto(server.url)
@@ -90,7 +101,7 @@ def test_a_server_that_hangs_is_said_and_what_was_set_is_done_when_it_goes_on(pa
         says = page.get_by_role("alert").filter(has_text=SILENT)
         os.kill(server.process.pid, signal.SIGSTOP)
         try:
-            page.get_by_role("radio", name="Rough").click()
+            ask_in_vain(page)
             says.wait_for()
         finally:
             os.kill(server.process.pid, signal.SIGCONT)
@@ -103,8 +114,9 @@ def test_a_line_that_was_cut_without_a_word_is_said_then_lost_and_the_page_comes
         page.goto(url)
         set_spin(page, "29.5")
         line.cut()
-        page.get_by_role("radio", name="Rough").click()
+        ask_in_vain(page)
         page.get_by_role("alert").filter(has_text=SILENT).wait_for()
+        page.evaluate("skip(25_000)")
         page.get_by_role("alert").filter(has_text=say("main.lost", "en")).wait_for()
         assert page.evaluate("window.mark") == 1  # nothing answers: there is nothing to load
         line.mend()

@@ -32,8 +32,8 @@ def go(chromium):
     """Opens an address in a new browser context; an error in the page fails the test."""
     visits = []
 
-    def open_(url):
-        visits.append(Visit(chromium.new_page(viewport={"width": 1400, "height": 900}), url))
+    def open_(url, **like):
+        visits.append(Visit(chromium.new_page(viewport={"width": 1400, "height": 900}, **like), url))
         return visits[-1]
 
     yield open_
@@ -96,7 +96,7 @@ def undo_is_one_step_a_gesture(visit):
 
 
 def test_a_link_opens_the_same_picture_elsewhere_and_undo_is_one_step_a_gesture(go, server):
-    visit = go(server + PAPERS)
+    visit = go(server + PAPERS, reduced_motion="reduce")
     until_address(visit, "v=4.*level=research")  # as the page itself writes it
     undo_is_one_step_a_gesture(visit)
     steps = visit.page.evaluate("history.length")
@@ -106,7 +106,8 @@ def test_a_link_opens_the_same_picture_elsewhere_and_undo_is_one_step_a_gesture(
     until_address(visit, "KJ=6\\.99")
     visit.page.locator(".paces .speed").select_option(str(1 / 4))
     until_address(visit, "slow=4")
-    visit.page.get_by_role("button", name="Pause").click()
+    for act in ("Play", "Pause"):
+        visit.page.get_by_role("button", name=act, exact=True).click()
     until_address(visit, "[?&]t=")
     assert visit.page.evaluate("history.length") == steps  # the entry was replaced, none was added
     visit.page.get_by_role("button", name="More", exact=True).click()
@@ -157,7 +158,7 @@ def test_a_bad_link_says_so_and_shows_the_first_motion(server, query):
 
 
 def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
-    visit = go(server + "?v=1&KJ=6.5&mu=.4")
+    visit = go(server + "?v=1&KJ=6.5&mu=.4", reduced_motion="reduce")
     scene = solve(Top.paper(), 6.5, 10.0, 0.4, 0.9)
     visit.page.get_by_role("button", name="Share").click()
     visit.page.locator("summary", has_text="The paper’s figures of this motion").click()
