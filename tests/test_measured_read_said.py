@@ -70,7 +70,7 @@ def test_a_few_values_that_are_far_off_are_named_with_their_times(language):
     row[[12, 30]] = 30.0, -FAR - 0.1
     with speaking(language):
         says = far_words(*a_fit(row=row))
-    assert all(part in says for part in ("2", "60", written(0.2, ".3f"), written(0.5, ".3f")))
+    assert all(part in says for part in ("2", "60", written(0.2, ".3f", language), written(0.5, ".3f", language)))
     row[::2] = 30.0  # then it is the model that is wrong
     assert a_fit(row=row)[0].far == {} and far_words(*a_fit(row=row)) == ""
     assert far_words(*a_fit()) == ""

@@ -104,7 +104,7 @@ def tells(head, rooms, session):
 
 def show():
     """Puts the page into the document that is being served."""
-    pn.extension(design=Design, respect_explicit_sizing=True)  # without any style sheet of a theme
+    pn.extension("katex", design=Design, respect_explicit_sizing=True)  # without any style sheet of a theme
     page().servable(title=say("main.title"))
     document = pn.state.curdoc
     document.template = first.TEMPLATE
