@@ -5,6 +5,7 @@ import gzip
 import json
 import re
 import urllib.request
+from itertools import combinations
 from urllib.parse import urljoin
 
 import numpy as np
@@ -16,6 +17,7 @@ from watching import LOST
 from app.page import first
 from app.state.opened import FIRST, opened
 from app.state.url_state import read
+from app.text import LANGUAGES
 
 MOST, WHOLE = 350_000, 1_200_000  # bytes, compressed: before the first frame, and before the page is idle
 
@@ -41,12 +43,13 @@ def test_the_file_holds_what_a_session_sends():
 
 def test_each_language_has_its_words_and_nothing_else():
     words = json.loads(first.words())
-    english, german = words["en"], words["de"]
-    assert english["texts"]["spin_it"] != german["texts"]["spin_it"]
-    stages = [json.loads(each["told"])["runs"]["ordinary"]["stages"] for each in (english, german)]
-    assert stages[0] != stages[1]
-    values = [json.loads(each["state"])["values"] for each in (english, german)]
-    assert values[0] == values[1]
+    says = [
+        (each["texts"]["spin_it"], json.loads(each["told"])["runs"]["ordinary"]["stages"]) for each in words.values()
+    ]
+    assert [*words] == [*LANGUAGES]
+    assert all(one[0] != other[0] and one[1] != other[1] for one, other in combinations(says, 2))
+    values = [json.loads(each["state"])["values"] for each in words.values()]
+    assert all(each == values[0] for each in values)
 
 
 def test_it_is_drawn_only_where_the_session_opens_the_same():
@@ -79,7 +82,8 @@ def test_a_first_visit_is_light(server, chromium):
     page.close()
     files = {server, *(name for name in names if name.startswith("http"))}
     sizes = {name: len(gzip.compress(urllib.request.urlopen(name).read())) for name in files}
-    assert any("panel.min.js" in name for name in sizes) and sum(sizes.values()) <= WHOLE, sizes
+    assert {"panel.min.js", "katex.min.js"} <= {name.split("?")[0].split("/")[-1] for name in sizes}
+    assert sum(sizes.values()) <= WHOLE, sizes
 
 
 @pytest.mark.served

@@ -91,7 +91,8 @@ def test_where_no_column_is_known_the_page_asks_at_its_top(language):
         tab.view  # noqa: B018
         tab.take(UNKNOWN)
         says = {"en": "No column was recognised. Say what each is:",
-                "de": "Keine Spalte wurde erkannt. Geben Sie an, was jede ist:"}[language]  # fmt: skip
+                "de": "Keine Spalte wurde erkannt. Geben Sie an, was jede ist:",
+                "es": "No se ha reconocido ninguna columna. Di qué es cada una:"}[language]  # fmt: skip
         assert f'role="alert">{says}<' in tab.said.object
         over = next(part for part in tab.view.objects if "over" in part.css_classes)
         assert over.objects[:2] == [tab.said, tab.over] and tab.over.objects == [tab.columns.view]

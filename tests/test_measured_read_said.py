@@ -19,7 +19,7 @@ from app.model.measured.report import program, residuals_table
 from app.model.measured.work import Found
 from app.tabs.measure.measure import Measure
 from app.tabs.measure.words import far_words, found_words, models_table, numbers_table
-from app.text import LANGUAGES, speaking
+from app.text import LANGUAGES, speaking, written
 from tippe_core import Scales, Top
 
 NOISE = {"tilt": np.radians(1.0), "spin": 2 * np.pi * 0.3, "tip": 2e-4, "across": 2e-4}
@@ -70,7 +70,7 @@ def test_a_few_values_that_are_far_off_are_named_with_their_times(language):
     row[[12, 30]] = 30.0, -FAR - 0.1
     with speaking(language):
         says = far_words(*a_fit(row=row))
-    assert all(part in says for part in ("2", "60", *(("0.200", "0.500") if language == "en" else ("0,200", "0,500"))))
+    assert all(part in says for part in ("2", "60", written(0.2, ".3f", language), written(0.5, ".3f", language)))
     row[::2] = 30.0  # then it is the model that is wrong
     assert a_fit(row=row)[0].far == {} and far_words(*a_fit(row=row)) == ""
     assert far_words(*a_fit()) == ""
@@ -88,7 +88,9 @@ def test_a_chi_square_far_below_its_degrees_of_freedom_is_said(language):
     row = 0.5 * np.random.default_rng(1).normal(size=len(T))
     with speaking(language):
         says = far_words(*a_fit(row=row))
-        assert ("2.2 times" if language == "en" else "2,2-mal") in says  # twice, and what this noise is below 1
+        assert {"en": "2.2 times", "de": "2,2-mal", "es": "2,2 veces"}[
+            language
+        ] in says  # twice, and this noise is below 1
         assert far_words(*a_fit()) == ""
 
 
@@ -120,7 +122,8 @@ def test_a_model_that_was_given_up_says_so_and_is_ruled_out(language):
         for fit in (sliding, remembered(sliding.model, data, checked(said, sliding.model))):
             assert fit.given_up and verdict(rolling, fit) == "rolled"
             says = found_words(rolling, fit, {}) + models_table(rolling, fit)
-            for part in {"en": ("50 times", "given up"), "de": ("50-mal", "auf\u00adgegeben")}[language]:
+            for part in {"en": ("50 times", "given up"), "de": ("50-mal", "auf\u00adgegeben"),
+                         "es": ("50 veces", "abandonado")}[language]:  # fmt: skip
                 assert part in says and part not in found_words(rolling, rolling, {}) + models_table(rolling, rolling)
 
 

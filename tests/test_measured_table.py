@@ -27,6 +27,8 @@ UNITS_BELOW = table("a wooden top\nt,tilt,spin\n(s),deg,rev/s", ",")
 IN_WORDS = table("Zeit in s;Neigung in Grad;Drehzahl in U/s", ";", ",")
 SIDE = table("t;stem tip from the side (mm);height of tip (mm)", ";", ",")
 PHONE_ONE = table('"Time (s)"\t"Angular velocity (rad/s)"\t"Acceleration (m/s^2)"', "\t")
+EN_PALABRAS = table("Tiempo en segundos;Inclinación en grados;Giro en vueltas/s", ";", ",")
+SPANISH_PHONE = table('"Tiempo (s)"\t"Velocidad angular x (rad/s)"\t"Velocidad angular z (rad/s)"', "\t", ",")
 GERMAN_PHONE = table('"Zeit (s)"\t"Winkelgeschwindigkeit x (rad/s)"\t"Winkelgeschwindigkeit z (rad/s)"', "\t", ",")
 
 
@@ -40,6 +42,8 @@ GERMAN_PHONE = table('"Zeit (s)"\t"Winkelgeschwindigkeit x (rad/s)"\t"Winkelgesc
         (UNITS_BELOW, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
         (IN_WORDS, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
         (GERMAN_PHONE, [("time", "s"), ("", ""), ("spin", "rad/s")]),
+        (SPANISH_PHONE, [("time", "s"), ("", ""), ("spin", "rad/s")]),
+        (EN_PALABRAS, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
         (
             table("t,stem tip from the side (mm),height of tip (mm)", ","),
             [("time", "s"), ("tip_side", "mm"), ("tip", "mm")],

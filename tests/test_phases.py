@@ -13,7 +13,7 @@ from app.model.phases import KINDS, Samples, comes_back, phases
 from app.model.run import motion_on, whole_on
 from app.model.setup import TOYS, start_of
 from app.model.story import story
-from app.text import LANGUAGES, listed
+from app.text import LANGUAGES, listed, written
 from tippe_core import TopError
 
 PAPER, TOY, S = "The paper's tippe top", "Leine and Glocker's toy", "Top S"
@@ -192,5 +192,5 @@ def test_it_tells_of_a_link_what_the_page_says(language):
     ]
     assert ordinary["phases"][-1]["to"] == ordinary["samples"]["t"][-1]
     assert {len(values) for values in ordinary["samples"].values()} == {len(ordinary["samples"]["t"])}
-    assert ordinary["kept"]["jellett"]["turning"].endswith("4.81" if language == "en" else "4,81")
+    assert ordinary["kept"]["jellett"]["turning"].endswith(written(4.81, "", language))
     assert told["tables"]["rough"]["kept"]["energy"]["kind"] == "gripped"

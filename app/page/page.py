@@ -110,7 +110,7 @@ def tells(head, rooms, session):
 
 def show():
     """Puts the page into the document that is being served."""
-    pn.extension(design=Plain, respect_explicit_sizing=True)
+    pn.extension("katex", design=Plain, respect_explicit_sizing=True)
     page().servable(title=say("main.title"))
     document = pn.state.curdoc
     document.template = first.TEMPLATE

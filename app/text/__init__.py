@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 from tippe_core import TopError
 from tippe_core.errors import shown
 
-LANGUAGES = {"en": "English", "de": "Deutsch"}
+LANGUAGES = {"en": "English", "de": "Deutsch", "es": "Español"}
 DEFAULT = "en"
 CODES = {
     "no-such-body": "a body thinner or wider than any",
@@ -32,7 +32,8 @@ CODES = {
 Found: TypeAlias = Any  # what a key leads to: words, a list of them, or a table
 
 
-MARKS = {"en": str.maketrans("-", "−"), "de": str.maketrans("-.,", "−,\N{NARROW NO-BREAK SPACE}")}
+_COMMA = str.maketrans("-.,", "−,\N{NARROW NO-BREAK SPACE}")
+MARKS = {"en": str.maketrans("-", "−"), "de": _COMMA, "es": _COMMA}
 """{language: its minus sign, decimal point and thousands separator}."""
 
 

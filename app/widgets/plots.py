@@ -12,6 +12,7 @@ from bokeh.models import (
     BasicTickFormatter,
     CDSView,
     CustomJS,
+    CustomJSHover,
     CustomJSTickFormatter,
 )
 from bokeh.plotting import figure
@@ -31,6 +32,13 @@ GRID, PAPER = "#e7ebef", "#ffffff"
 def in_language(basic):
     """A tick formatter of Bokeh's, with the decimal point of the page's language."""
     return CustomJSTickFormatter(args={"basic": basic, "point": decimal_point()}, code=TICKS)
+
+
+def decimals():
+    """For the numbers of a HoverTool, "$x{3}": in the notation of the page's language, with so many decimals."""
+    return CustomJSHover(
+        args={"point": decimal_point()}, code='return Number(value).toFixed(Number(format)).replace(".", point)'
+    )
 
 
 def plain(**options):

@@ -44,19 +44,21 @@ UNITS = {
 # The names of each quantity in tables, in lower case and reduced to letters and digits.
 NAMES = {
     "time": "t time zeit seconds frame frames bild bilder timestamp secondselapsed elapsed elapsedtime zeitstempel "
-    "datetime clock clocktime uhrzeit timesincestart relativetime",
-    "tilt": "tilt theta θ angle winkel neigung inclination nutation tiltangle neigungswinkel",
+    "datetime clock clocktime uhrzeit timesincestart relativetime tiempo segundos fotograma fotogramas imagen imágenes",
+    "tilt": "tilt theta θ angle winkel neigung inclination nutation tiltangle neigungswinkel "
+    "inclinación ángulo ángulodeinclinación",
     "line": "thetar θr positionangle",
-    "azimuth": "azimuth azimut phi φ ϕ",
+    "azimuth": "azimuth azimut acimut phi φ ϕ",
     "spin": "spin omega3 omegaz ω3 ωz w3 ω omega rpm drehung drehzahl eigendrehung gyroscopez gyroskopz gyroz wz "
-    "rotationratez angularvelocity angularvelocityz winkelgeschwindigkeit winkelgeschwindigkeitz",
-    "precession": "precession präzession phidot precessionrate präzessionsrate",
-    "height": "height höhe heightofg h zg",
-    "tip": "tip tipheight stemtip spitze stielende heightoftip",
+    "rotationratez angularvelocity angularvelocityz winkelgeschwindigkeit winkelgeschwindigkeitz "
+    "giro velocidaddegiro velocidadangular velocidadangularz giroscopioz",
+    "precession": "precession präzession phidot precessionrate präzessionsrate precesión velocidaddeprecesión",
+    "height": "height höhe heightofg h zg altura alturadeg",
+    "tip": "tip tipheight stemtip spitze stielende heightoftip alturadelaespiga alturadelapunta",
     "x": "x contactx trackx",
     "y": "y contacty tracky",
-    "tip_x": "tipx xtip stemtipx spitzex",
-    "tip_y": "tipy ytip stemtipy spitzey",
+    "tip_x": "tipx xtip stemtipx spitzex puntax",
+    "tip_y": "tipy ytip stemtipy spitzey puntay",
     "side": "side fromtheside contactfromtheside vonderseite auflagevonderseite",
     "tip_side": "tipside tipfromtheside stemtipfromtheside spitzevonderseite",
     "axis_side": "axisside",
@@ -71,19 +73,21 @@ _UNIT = {
     "°": "deg", "degree": "deg", "degrees": "deg", "grad": "deg", "rad": "rad", "radian": "rad", "radians": "rad",
     "rev/s": "rev/s", "u/s": "rev/s", "1/s": "rev/s", "/s": "rev/s", "hz": "rev/s", "rps": "rev/s", "rad/s": "rad/s",
     "rad/sec": "rad/s", "deg/s": "deg/s", "°/s": "deg/s", "grad/s": "deg/s", "rpm": "rpm", "rev/min": "rpm",
-    "u/min": "rpm", "1/min": "rpm", "/min": "rpm", "mm": "mm", "cm": "cm", "m": "m",
+    "segundo": "s", "segundos": "s", "fotogramas": "frames", "imágenes": "frames", "grado": "deg", "grados": "deg",
+    "grados/s": "deg/s", "radianes": "rad", "vueltas/s": "rev/s", "u/min": "rpm", "1/min": "rpm", "/min": "rpm",
+    "mm": "mm", "cm": "cm", "m": "m",
 }  # fmt: skip
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?", re.A)
-_UNIT_LAST = re.compile(r"(?:\s+in\s+|[/_ ]\s*)([^/_\s]*(?:/[^/_\s]+)?)\s*$")
+_UNIT_LAST = re.compile(r"(?:\s+[ie]n\s+|[/_ ]\s*)([^/_\s]*(?:/[^/_\s]+)?)\s*$")
 _PER = re.compile(
-    r"(?:[\s_]+(?:per|pro)[\s_]+|(?<=(?:rad|deg|rev))_)(s|min)[a-z]*|"
-    r"(?<!\bin)[\s·⋅*]*\b(s|min)(?:\^?[-\u2212]1|⁻¹)",
+    r"(?:[\s_]+(?:per|pro|por)[\s_]+|(?<=(?:rad|deg|rev))_)(s|min)[a-z]*|"
+    r"(?<!\b[ie]n)[\s·⋅*]*\b(s|min)(?:\^?[-\u2212]1|⁻¹)",
     re.I,
 )
-_RUN_LAST = re.compile(r"\s+((?:run|lauf|messung|durchgang)\s*#?\s*\d+)\s*$", re.I)
+_RUN_LAST = re.compile(r"\s+((?:run|lauf|messung|durchgang|ejecución|serie|medición|toma)\s*#?\s*\d+)\s*$", re.I)
 _RUN_FIRST = re.compile(r"\s*([^:()\[\]±]{1,40}?)\s*:\s*(?=\S)")
-_OF_RADIANS = ("ω", "omega", "angular", "winkel")  # a rate of these in 1/s is in rad/s
-_CHANNEL = re.compile(r",\s*(?:ch|kanal)\.?\s*[\w&+]+", re.I)  # of Capstone's sensors
+_OF_RADIANS = ("ω", "omega", "angular", "winkel", "velocidadangular")  # a rate of these in 1/s is in rad/s
+_CHANNEL = re.compile(r",\s*(?:ch|kanal|canal)\.?\s*[\w&+]+", re.I)  # of Capstone's sensors
 
 
 def without_run(name: str) -> tuple[str, str]:
@@ -97,7 +101,7 @@ def understood(name: str) -> tuple[str, str, float | None]:
     name, _, error = without_run(name)[0].partition("±")
     found = NUMBER.fullmatch(error.strip())
     called, raw = without_unit(name)
-    bare = re.sub(r"[^a-zäöüßθφϕω0-9]", "", called.lower())
+    bare = re.sub(r"[^a-zäöüßáéíóúñθφϕω0-9]", "", called.lower())
     known = "rad/s" if raw in ("1/s", "/s") and bare.startswith(_OF_RADIANS) else _UNIT.get(raw, "")
     known = known or _UNIT.get(bare.removesuffix("elapsed"), "")  # the name is the unit
     return _QUANTITY.get(bare, ""), known, float(error.strip().replace(",", ".")) if found else None
@@ -130,7 +134,7 @@ def likely(quantity: str, values: Array, name: str) -> str:
     """The most likely unit of a column that does not say it."""
     largest = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
     if quantity == "time":
-        if re.match("frame|bild", name.lower()):
+        if re.match("frame|bild|fotograma|im[aá]gen", name.lower()):
             return "frames"
         steps = np.diff(values[np.isfinite(values)])
         step = float(np.median(steps)) if steps.size else 0.0

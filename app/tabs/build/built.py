@@ -14,6 +14,7 @@ HIGH = 380  # px
 ALONE = ".tippe :is(.verdict, .scales) { display: none }"
 STAGE = f":host {{ height: clamp(300px, 46vh, {HIGH}px) !important }}"
 CORNER = ":host { position: absolute; bottom: 16px; SIDE: 16px; width: max-content !important; z-index: 1 }"
+BESIDE = ":host { max-width: calc(100% - 160px) }"  # the button
 PILL = """
 b { display: block; background: var(--card); border-radius: 16px; padding: 4px 12px;
   font-variant-numeric: tabular-nums }
@@ -29,7 +30,7 @@ class Built:
         self.told = VerdictWords(runs)
         self.top = Top3D(sizing_mode="stretch_width", height=HIGH, clock="build", label=say("build.spin.top"),
                          playing=False, bare=True, stylesheets=[STAGE, ALONE], **SHOWN)  # fmt: skip
-        self.size = words(style=PILL + CORNER.replace("SIDE", "left"), sizing_mode=None)
+        self.size = words(style=PILL + BESIDE + CORNER.replace("SIDE", "left"), sizing_mode=None)
         self.spin = Button(say("build.spin.it"), spin, kind="primary", stylesheets=[CORNER.replace("SIDE", "right")])
 
     @property

@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d, Scatter
+from bokeh.models import BasicTickFormatter, ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d, Scatter
 from bokeh.palettes import Viridis256
 
 from app.model.build.builder import thrown
@@ -17,7 +17,7 @@ from app.widgets.cards import alert, flow, note, progress, words
 from app.widgets.choice import Choice
 from app.widgets.forms import Button, Field
 from app.widgets.numbers import typed_number
-from app.widgets.plots import draw, plain
+from app.widgets.plots import decimals, draw, in_language, plain
 from tippe_core import TopError, TruncatedSphere
 
 PICTURE_EVERY = 0.5  # s
@@ -55,9 +55,10 @@ class Compare:
         picture = fig.image("share", x="x", dw="w", y=bottom, dh=top - bottom, source=self.shares,
                             color_mapper=colours)  # fmt: skip
         draw(fig, Scatter, "a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
-        fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK,
-                                major_tick_line_color=FAINT), "right")  # fmt: skip
-        fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{0.000}, I₃/I₁ $y{0.00}: @share{0.00}"))
+        fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK, major_tick_line_color=FAINT,
+                                formatter=in_language(BasicTickFormatter())), "right")  # fmt: skip
+        fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{3}, I₃/I₁ $y{2}: @share{2}",
+                                formatters=dict.fromkeys(("$x", "$y", "@share"), decimals())))  # fmt: skip
         self._show_span()
         self.bar = words(visible=False, margin=(8, 0))
         self.start = Button(say("family.map.start"), self.compute)

@@ -47,7 +47,7 @@ def teach_view(present, close):
             carded("toy", bullets(listed("teach.plans.toy"))),
         ),
         tall(
-            carded("links", f"<ol style='margin: 4px 0; padding-left: 20px'>{links}</ol>"),
+            carded("links", f"<ol style='margin: 4px 0; padding-left: 28px'>{links}</ol>"),
             carded("fifty", bullets(listed("teach.plans.fifty"), True)),
             carded("olympiad", f"<dl style='margin: 0'>{olympiad}</dl>"),
         ),

@@ -137,7 +137,7 @@ svg .washed { stroke: var(--wash); } svg .inside { fill: var(--ground); stroke: 
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
 .half { font-size: var(--t-s); color: var(--ink-2); } th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
 thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
-.kept { white-space: nowrap; margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
+.kept, .kept + .small { white-space: nowrap; } .kept { margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
 @container (max-width: 700px) { .lab > .answer .plot { flex: none; height: 240px; } .large { padding: 16px; width: 100vw; height: 100vh; border-radius: 0; } :is(.lab > .answer, .large) .titled { flex-wrap: wrap; } .lab > .answer h2 { flex-basis: 100%; } .mini button { min-height: 44px; min-width: 44px; } }
 `;
 
