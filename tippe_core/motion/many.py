@@ -22,7 +22,7 @@ from .kinds import STARTS, TOUCHES
 from .nudge import beside, checked_nudge
 from .periodic import run_all
 from .poses import sample_at
-from .records import LOG, OPEN, SAMPLE, Record, new
+from .records import BALL, LOG, OPEN, SAMPLE, STEM, Record, new
 from .run import ENDED, MORE
 from .summary import begin, energy_at
 
@@ -288,7 +288,7 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
     E = energy_at(W, P) + W.y[at.HEAT]
     begin(W, P, log, (1 - LAST) * t_end)
     if goes_on and event[0] == TOUCHES:
-        events.logged(W, log, events.change(OPEN, OPEN, *W.modes, event), *W.modes)
+        events.logged(W, log, events.change(OPEN, OPEN, W.modes[BALL], W.modes[STEM], event), *W.modes)
     if goes_on and not carried(*W.modes) and not how.flies and event[0] == STARTS:
         events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
     elif goes_on:

@@ -19,7 +19,7 @@ from .dynamics import carried
 from .friction import LAWS, Friction
 from .kinds import NONE, STARTS, TOUCHES
 from .poses import REGIMES, sample_at
-from .records import LOG, OPEN, SAMPLE, SLIP
+from .records import BALL, LOG, OPEN, SAMPLE, SLIP, STEM
 from .rolling_part import RollingPart
 from .run import ENDED, HANDS_OVER, MORE, run
 from .summary import begin
@@ -163,7 +163,7 @@ class Sliding:
         if not goes_on:
             events.logged(W, self._log, events.PAINLEVE, OPEN, OPEN)
         elif kind == TOUCHES:
-            events.logged(W, self._log, events.change(OPEN, OPEN, *W.modes, start[0]), *W.modes)
+            events.logged(W, self._log, events.change(OPEN, OPEN, W.modes[BALL], W.modes[STEM], start[0]), *W.modes)
         elif self._first == 0 and kind == STARTS:
             events.logged(W, self._log, events.LIFTS_OFF, OPEN, OPEN)
         self.ended = not (goes_on and (self._first or self._flies or kind == NONE))
