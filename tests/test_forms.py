@@ -111,9 +111,8 @@ def test_they_are_legible_in_every_look_and_large_enough_for_a_finger(form, like
     found.send()
     for look in ("light", "dark large"):
         found.page.evaluate("""look => {
-          document.documentElement.dataset.look = look
-          document.body.style.background = look == "light" ? "white" : "#0e1318"
-          document.documentElement.style.setProperty("--card", look == "light" ? "white" : "#0e1318")
+          __tippe.wear(look)
+          document.body.style.background = "var(--card)"
           window.dispatchEvent(new CustomEvent("tippe:look"))
         }""", look)  # fmt: skip
         assert not violations(found.page)

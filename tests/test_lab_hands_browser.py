@@ -20,7 +20,7 @@ pytestmark = pytest.mark.served
 END = 12.0  # s: of the arrival's life
 NOW = f"{TIME} * {UNIT}"
 SEEK = "(bar, t) => { bar.value = t; bar.dispatchEvent(new Event('input')) }"
-LOOK = "look => { document.documentElement.dataset.look = look; window.dispatchEvent(new CustomEvent('tippe:look')) }"
+LOOK = "look => { __tippe.wear(look); window.dispatchEvent(new CustomEvent('tippe:look')) }"
 PHONE = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
 
 

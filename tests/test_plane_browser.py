@@ -331,7 +331,7 @@ def test_a_press_on_a_button_is_sent_and_the_figure_stays_where_it_is(figure):
 
 # As the page does it: app/frontend/src/widgets/look.js.
 LOOK = """look => {
-  document.documentElement.dataset.look = look
+  __tippe.wear(look)
   document.documentElement.style.setProperty("--card", look.startsWith("dark") ? "#0e1318" : "#fff")
   document.body.style.background = "var(--card)"
   dispatchEvent(new CustomEvent("tippe:look"))

@@ -46,7 +46,7 @@ import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
 wear(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"); // until look.js knows what a person chose
-window.__tippe = { time: timeOf, tops: topsOf }; // for tests only: there before any component is
+window.__tippe = { time: timeOf, tops: topsOf, wear }; // for tests only: there before any component is
 
 // Panel finds a component by the name of its Python class.
 export default {

@@ -93,7 +93,7 @@ button { font: inherit; color: inherit; background: transparent; border: 1px sol
   min-width: 34px; height: calc(34px * var(--type, 1)); padding: 0 10px; }
 button:hover { background: color-mix(in srgb, currentColor 12%, transparent); }
 button:focus-visible { outline: 2px solid currentColor; outline-offset: 2px; } h2 { outline: none; }
-dialog, .stop { color: var(--ink); background: var(--card); border: 1px solid var(--outline); border-radius: 10px; padding: 14px 18px;
+dialog, .stop { color: var(--ink); background: var(--card); border: 1px solid var(--control-line); border-radius: 10px; padding: 14px 18px;
   box-shadow: 0 6px 24px #0006; box-sizing: border-box; max-width: min(560px, calc(100vw - 28px)); }
 dialog::backdrop { background: #0008; }
 h2 { font-size: 1.1em; margin: 0 0 6px; outline-offset: 4px; } h3 { font-size: 1em; margin: 14px 0 4px; }

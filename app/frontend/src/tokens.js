@@ -7,12 +7,12 @@ const scene = {
   light: { scene: "#f1efea", "scene-ink": "#1b2430", "scene-faint": "#4a5563", pill: "#ffffffe6", halo: "#fff", shape: "#55606c" },
   dark: { scene: "#191f25", "scene-ink": "#eef2f5", "scene-faint": "#b6c1cc", pill: "#0e1318e6", halo: "#0e1318", shape: "#a9b4bf" },
 };
-// ink: text and curves; faint: lesser text; rule, outline: thin lines and those of controls; card: the ground.
+// ink: text and curves; faint: lesser text; rule, control-line: thin lines and those of controls; card: the ground.
 const looks = {
-  light: { ink: colours.ink, faint: "#55606c", rule: "#d8dce0", outline: colours.faint, card: "#ffffff" },
-  "light large": { ink: "#000000", faint: "#26323d", rule: "#c9d0d7", outline: "#4a5661", card: "#ffffff" },
-  dark: { ink: "#eef2f5", faint: "#a9b4bf", rule: "#2d363f", outline: "#75818d", card: "#0e1318" },
-  "dark large": { ink: "#ffffff", faint: "#e3e8ed", rule: "#4a5661", outline: "#c4ccd4", card: "#0e1318" },
+  light: { ink: colours.ink, faint: "#55606c", rule: "#d8dce0", "control-line": colours.faint, card: "#ffffff" },
+  "light large": { ink: "#000000", faint: "#26323d", rule: "#c9d0d7", "control-line": "#4a5661", card: "#ffffff" },
+  dark: { ink: "#eef2f5", faint: "#a9b4bf", rule: "#2d363f", "control-line": "#75818d", card: "#0e1318" },
+  "dark large": { ink: "#ffffff", faint: "#e3e8ed", rule: "#4a5661", "control-line": "#c4ccd4", card: "#0e1318" },
 };
 
 /** @param {string} name a look: light or dark, and perhaps large @returns {Record<string, string>} */

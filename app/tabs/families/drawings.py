@@ -8,7 +8,7 @@ from app.text import say, written
 
 WIDTH = 480  # px: that of the column on a wide page; on a phone the letters are enlarged, as the figure shrinks
 LETTERS = "svg { font-size: 12px } @media (max-width: 700px) { svg { font-size: 16px } }"
-LINE, PALE, RULE = "var(--ink)", "var(--outline)", "var(--rule)"
+LINE, PALE, RULE = "var(--ink)", "var(--control-line)", "var(--rule)"
 SHEET = "color-mix(in srgb, #9a7434 26%, var(--card))"
 
 

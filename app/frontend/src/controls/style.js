@@ -2,7 +2,7 @@
 // font sizes, a grid of 8 px, one blue for what is selected, one colour for each quantity.
 const tokens = `
 .frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
-  --ground: var(--card); --floor: var(--scene); --ink-2: var(--faint); --line: var(--rule); --line-2: var(--outline);
+  --ground: var(--card); --floor: var(--scene); --ink-2: var(--faint); --line: var(--rule); --line-2: var(--control-line);
   --q-spin: var(--omega); --q-energy: var(--energy); --q-energy-wash: var(--energy_wash); --q-jellett: var(--jellett); --q-routh: var(--routh); --q-force: var(--normal);
   container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
   -webkit-font-smoothing: antialiased; }

@@ -6,7 +6,7 @@ import { tokensOf, wear } from "../tokens.js";
 
 const LARGER = 1.35;
 // What a figure is drawn with on a light page, with grid and background of app/widgets/plots.py; and its tokens.
-const INKS = { [colours.ink]: "ink", [colours.faint]: "outline", "#e7ebef": "rule", "#ffffff": "card", [colours.accent]: "accent" };
+const INKS = { [colours.ink]: "ink", [colours.faint]: "control-line", "#e7ebef": "rule", "#ffffff": "card", [colours.accent]: "accent" };
 // of a quantity: its colour on a light page, and that on a dark one
 const DARK = new Map(Object.entries(onDark).map(([name, dark]) => [colours[name].toLowerCase(), dark]));
 
