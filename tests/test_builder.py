@@ -91,7 +91,7 @@ def test_presets(explorer, builder, preset):
     builder.choose(preset.name)
     assert len(drafts) == other and (builder.draft.name, builder.draft.source) == (preset.name, preset.source)
     scene = explorer.scene
-    assert len(scenes) == 1 and not scene.messages
+    assert len(scenes) == other and not scene.messages
     assert scene.top == preset.top and scene.shape == preset.shape and scene.scales == preset.shape.scales
     # The spin stays what the paper's top has at K_R = 10 (physics.md: 34.7 cycles/s), and the table carries the motion.
     assert scene.upright_spin * scene.scales.angular_velocity / (2 * np.pi) == pytest.approx(34.7, abs=0.05) or (

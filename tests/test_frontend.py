@@ -290,7 +290,7 @@ def test_a_flat_top_goes_with_the_clock_and_is_saved(flat):
 def test_tops_of_one_clock_play_as_one_also_where_they_are_drawn_flat(flat):
     """Each shows its own motion at the same time: playing one moves the others along."""
     found = flat(reduced_motion="no-preference")
-    tops = [top_of(frames(t=T * (1 + i / 9))[0], clock="planes", height=250) for i in range(3)]
+    tops = [top_of(frames(t=T * (1 + i / 9))[0], clock="planes", height=320) for i in range(3)]
     page = found.show(*tops)
     assert page.locator(FLAT).count() == 3
     times = "() => __tippe.tops('planes').filter((top) => top.count > 1).map((top) => top.t)"

@@ -333,8 +333,7 @@ class _Told:
             "spin": abs(float(first[5])), "last": abs(float(last[5])), "low": float(start[2]),
             "high": float(upto[:, 2].max()) if len(upto) else float(first[2]),
             "start": float(start[3] + start[4] * (motion.table == "rough")), "left": float(last[3]),
-            "happens": _happens(motion) if motion.ended else "",
-            "part": _part(motion),
+            "happens": _happens(motion) if motion.ended else "", "part": _part(motion),
         }  # fmt: skip
 
 
@@ -346,6 +345,6 @@ def _caption(motion: TableMotion) -> str:
     if by < TENTH[0]:
         same = f"{low:.0f}" == f"{high:.0f}"
         return say("lab.caption.stays", low=low) if same else say("lab.caption.stays_near", mean=(low + high) / 2)
-    if by < TENTH[1]:
-        return say("lab.caption.tenth")
-    return say("lab.caption.little", by=by) if by < 1 else say("lab.caption.nods", low=low, high=high)
+    if by < 1:
+        return say("lab.caption.tenth") if by < TENTH[1] else say("lab.caption.little", by=by)
+    return say("lab.caption.nods", low=low, high=high)

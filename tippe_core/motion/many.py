@@ -37,7 +37,7 @@ class States(NamedTuple):
     Attributes
     ----------
     theta, theta_dot, omega2, omega3, phi, psi, x, y, vx, vy, z, vz : array
-        as in State; z, vz also where a contact carries
+        as in State; z, vz nan where a contact carries
     """
 
     theta: Array
@@ -223,8 +223,10 @@ def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
 
 def _possible(kind: type, names: Iterable[str], row: tuple[float, ...]) -> Any:
     """An instance of the kind with these fields, or the code of the TopError that it raises."""
+    given = {name: value for name, value in zip(names, row, strict=True)
+             if not (name in ("z", "vz") and np.isnan(value))}  # fmt: skip
     try:
-        return kind(**dict(zip(names, row, strict=True)))
+        return kind(**given)
     except TopError as error:
         return error.code
 
@@ -312,8 +314,7 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
         here.psi,
         *here.com[:2],
         *here.velocity[:2],
-        here.com[2],
-        here.velocity[2],
+        *([np.nan] * 2 if carried(*W.modes) else [here.com[2], here.velocity[2]]),
     ]
     row["time_90"], row["time_stem"] = (
         events.first(entries, events.PASSES_90),

@@ -202,8 +202,8 @@ class Sliding:
                 self._fill(t, rows, progress)
             finally:
                 self._add(t, rows[: self._W.samples])
-        if progress:
-            progress(1.0)
+            if progress and not self.ended:
+                progress(1.0)
         return self.trajectory
 
     @property

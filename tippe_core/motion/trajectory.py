@@ -155,16 +155,18 @@ class Trajectory:
                        notes=notes)  # fmt: skip
 
     def at(self, t: float) -> State:
-        """The State at the time t, from t[0] to t[-1]: linear between the two nearest instants. x, y are those of G; z
+        """The State at the time t, within its times: linear between the two nearest instants. x, y are those of G; z
         and vz too while nothing carries it."""
         t = finite("t", t)
-        if np.any(np.diff(self.t) < 0):
-            raise TopError("t", t, "times[i] <= times[i + 1] of its Trajectory", code="falling")
-        if not self.t[0] <= t <= self.t[-1]:
-            raise TopError("t", t, "{first:.10g} to {last:.10g}", code="outside-times", first=float(self.t[0]),
-                           last=float(self.t[-1]))  # fmt: skip
+        in_time = np.argsort(self.t, kind="stable")
+        times = self.t[in_time]
+        if not times[0] <= t <= times[-1]:
+            raise TopError("t", t, "{first:.10g} to {last:.10g}", code="outside-times", first=float(times[0]),
+                           last=float(times[-1]))  # fmt: skip
         columns = np.column_stack([self.theta, self.omega, self.phi, self.psi, self.com, self.velocity])
-        theta, w1, w2, w3, phi, psi, x, y, z, vx, vy, vz = (float(np.interp(t, self.t, each)) for each in columns.T)
+        theta, w1, w2, w3, phi, psi, x, y, z, vx, vy, vz = (
+            float(np.interp(t, times, each)) for each in columns[in_time].T
+        )
         on = [name for since, name in self.supports if since <= t][-1]
         flight = {"z": z, "vz": vz} if on == "none" else {}
         return State(theta, w1, 0.0 if theta in (0.0, np.pi) else w2, w3, phi, psi, x, y, vx, vy, **flight)

@@ -147,7 +147,7 @@ def _at_most(look: Callable[[float], object], share: float, done: float) -> None
 def _may_stand(top: Top, last: list[Array]) -> Bools:
     """Whether runs that are in these fields of States may come to stand upside down: they have the energy, and are not
     upright with a spin at which that is stable. Only for tops with a > 0."""
-    theta, theta_dot, omega2, omega3, *_, vx, vy = last
+    theta, theta_dot, omega2, omega3, *_, vx, vy, _z, _vz = last
     rise = top.a * np.sin(theta) * theta_dot
     turning = top.I1 * (theta_dot**2 + omega2**2) + top.I3 * omega3**2
     energy = (turning + vx**2 + vy**2 + rise**2) / 2 + 1 - top.a * np.cos(theta)
