@@ -97,7 +97,7 @@ def outcome_words(goes, scales):
         reason = say("planes.outcome.neutral")
     elif limits.group in ("never rises", "can invert", "rises part of the way"):
         reason = say("planes.outcome.both", upright=upright, inverted=inverted)
-    will = listed("planes.outcome.will")[goes.nudged or goes.verdict].format(tilt=np.degrees(goes.theta))
+    will = say(f"planes.outcome.will.{goes.nudged or goes.verdict}", tilt=np.degrees(goes.theta))
     return say(f"planes.outcome.{'nudged' if goes.nudged else 'sentence'}", spin=spin(goes.launch), will=will,
                reason=reason, doubt="" if goes.certain else say("planes.outcome.doubt"))  # fmt: skip
 
