@@ -10,7 +10,7 @@ from app.model.motion import RTOL
 from app.model.pushes import push_words
 from app.model.run import THROWN
 from app.model.setup import TABLES
-from app.text import listed, say, written
+from app.text import say, written
 from app.widgets.typeset import power
 
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
