@@ -21,8 +21,8 @@ Roles = dict[int, tuple[str, str]]
 """{column: (its quantity if the film is from the side, if it is from above)}."""
 VIEWS = ("side", "above")
 BETWEEN = " \u2212 "
-STEM = re.compile(r"stem|tip|top|spitze|stiel|end|stift", re.I)
-BALL = re.compile(r"ball|mid|cent|mitte|kugel|zentrum", re.I)
+STEM = re.compile(r"stem|tip|top|spitze|stiel|end|stift|espiga|punta", re.I)
+BALL = re.compile(r"ball|mid|cent|mitte|kugel|zentrum|bola", re.I)
 HIGHEST = 0.3
 """m: the stem's end of a top is not higher."""
 _POINT = re.compile(r"(?:(.*?)[\s_.]+)?(x|y|θr|theta_?r)\s*", re.I)
