@@ -257,13 +257,27 @@ def test_three_tops_have_one_clock_what_they_keep_is_counted_to_it_and_a_photo_h
         assert said == word and float(first) == pytest.approx(jellett[0], abs=0.005)
         assert float(last) == pytest.approx(np.interp(t, motion.seconds, jellett), abs=0.01)
     page.wait_for_function(f"new Set({TOPS}.filter((top) => top.count).map((top) => top.t.toFixed(3))).size == 1")
+    page.evaluate(WRITTEN)
     with page.expect_download() as download:
         page.get_by_role("button", name="PNG", exact=True).click()
+    written = re.fullmatch(r"t = ([\d.]+) s, θ = (\d+)° / (\d+)° / (\d+)°", page.evaluate("written").pop())
+    seconds, *tilts = map(float, written.groups())
+    runs = [whole_on(table, start_of(*ARRIVAL[1:])) for table in ("ordinary", "rough", "ice")]
+    assert seconds == pytest.approx(END, abs=0.006)
+    assert tilts == pytest.approx([np.interp(END, run.seconds, run.tilt) for run in runs], abs=1)
     picture = Image.open(download.value.path()).convert("RGB")
     assert picture.width == pytest.approx(2400, abs=9) and picture.height < picture.width / 2
     for third in range(3):
         part = picture.crop((third * 800, 0, third * 800 + 800, picture.height))
         assert len(part.resize((80, 80)).getcolors(10_000)) > 300, third  # a top
+
+
+# Notes all words that are written on a canvas.
+WRITTEN = """() => {
+  window.written = []
+  const pen = CanvasRenderingContext2D.prototype, write = pen.fillText
+  pen.fillText = function (words, ...place) { written.push(words); write.call(this, words, ...place) }
+}"""
 
 
 # What a finger touches that is less than 44 px high.

@@ -65,7 +65,8 @@ test("the first visible top that has a motion moves the time, at the model's spe
     assert.deepEqual(pass(180), [true, true]); // both start again
     near([leader.player.t, last.player.t], [0.5, 0.5]);
     assert.equal(timeOf("a"), leader.player.t);
-    assert.deepEqual(photosOf(6), ["a 2", "a 2", "a 2"]); // of the visible ones
+    assert.deepEqual(photosOf(6).map(({ picture }) => picture), ["a 2", "a 2", "a 2"]); // of the visible ones
+    near(photosOf(6).at(-1).seconds, leader.player.t * leader.model.seconds);
     assert.equal(timeOf("nobody's"), 0);
   }));
 

@@ -20,10 +20,10 @@ export const topsOf = (clock) => on(clock).map((place) => place.report);
 /** The tops of a clock that have a motion, also out of sight. @param {string} clock */
 export const filmedOn = (clock) => on(clock).filter(({ picture, player }) => picture.clientWidth && player.frames.count);
 
-/** Pictures of the tops that are visible, together `wide` px wide. @param {number} wide */
+/** Pictures of the tops that are visible, together `wide` px wide, each with its time in s and its tilt in degrees. @param {number} wide */
 export function photosOf(wide) {
   const seen = [...clocks.values()].flat().filter(({ isSeen }) => isSeen);
-  return seen.map(({ photo }) => photo(wide / seen.length));
+  return seen.map(({ photo, player, model }) => ({ picture: photo(wide / seen.length), seconds: player.t * model.seconds, tilt: (180 / Math.PI) * player.frames.theta(player.index) }));
 }
 
 export class Place {

@@ -45,6 +45,11 @@ export class Frames {
     return this.rows[i * WIDTH + T];
   }
 
+  /** @param {number} i @returns {number} rad */
+  theta(i) {
+    return this.rows[i * WIDTH + THETA];
+  }
+
   /** @param {number} i @returns {[number, number]} */
   contact(i) {
     return [this.rows[i * WIDTH + CONTACT], this.rows[i * WIDTH + CONTACT + 1]];

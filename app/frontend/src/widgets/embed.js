@@ -27,7 +27,7 @@ export function renderEmbed(rendering) {
   frame(rendering, STYLE, all);
   const look = () => {
     area.value = model.code;
-    const pictures = others.length && all.clientWidth ? photosOf(SMALL) : [];
+    const pictures = others.length && all.clientWidth ? photosOf(SMALL).map(({ picture }) => picture) : [];
     preview.hidden = !pictures.length;
     if (!pictures.length) return;
     Object.assign(preview, { width: SMALL, height: Math.max(...pictures.map(({ height }) => height)) });

@@ -1,11 +1,15 @@
 // Saves a picture of the top as shown, with its caption below.
 import { colours } from "../colours.js";
 import { saveButton } from "../controls/button.js";
-import { penOf } from "../data.js";
+import { local, penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
 import { save } from "./saving.js";
 
 const LINE = 1.5; // line height of a caption, in units of the font size
+
+// The moment that pictures show, in symbols that are the same in every language.
+/** @param {{ seconds: number, tilt: number }[]} shown */
+const moment = (shown) => local(`t = ${shown[0].seconds.toFixed(2)} s, θ = ${shown.map(({ tilt }) => `${tilt.toFixed(0)}°`).join(" / ")}`);
 
 /** @param {HTMLCanvasElement[]} pictures to be placed side by side @param {string[]} caption */
 function withCaption(pictures, caption) {
@@ -35,8 +39,8 @@ export function renderPhoto(rendering) {
   none.setAttribute("role", "status");
   button.before(none);
   button.onclick = () => {
-    const pictures = photosOf(model.wide);
-    none.textContent = pictures.length ? "" : `${model.none} `;
-    if (pictures.length) withCaption(pictures, model.caption).toBlob((blob) => blob && save(blob, "tippe-top-3d.png"));
+    const shown = photosOf(model.wide);
+    none.textContent = shown.length ? "" : `${model.none} `;
+    if (shown.length) withCaption(shown.map(({ picture }) => picture), [...model.caption, moment(shown)]).toBlob((blob) => blob && save(blob, "tippe-top-3d.png"));
   };
 }
