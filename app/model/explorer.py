@@ -1,5 +1,6 @@
 """The view-model: each change of the inputs is solved once, and gives one frozen Scene of the rolling motion."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 from math import floor, log10, nan
@@ -53,6 +54,15 @@ class Explorer(param.Parameterized):
         if self._waits:
             self._waits = False
             self._put(scene=self._solve(self.start))
+
+    def when(self, name: str, run: Callable[[], object]) -> None:
+        """Calls run() whenever this of the start, an input or what it has, becomes another."""
+
+        def changed(event: param.parameterized.Event) -> None:
+            if getattr(event.old, name) != getattr(event.new, name):
+                run()
+
+        self.param.watch(changed, "start")
 
     def __getattr__(self, name: str) -> Any:
         """An input, set or as it follows from what is set; or what else the start has."""

@@ -212,12 +212,11 @@ def shape_of(toy: Toy) -> Shape:
     return TOYS[toy].shape if isinstance(toy, str) else toy
 
 
-def toy_of(shape: Shape | None, top: Top, scales: Scales | None = None) -> Toy:
+def toy_of(shape: Shape | None, top: Top, scales: Scales) -> Toy:
     """The name in TOYS of the toy with this body and this top, otherwise the body; without one, a sphere of these
     scales with these a, I1 and I3, if there is one."""
     if shape is not None:
         return next((name for name, preset in TOYS.items() if preset.shape == shape and preset.top == top), shape)
-    assert scales is not None
     try:
         return BareSphere(R=scales.R, M=scales.M, a=top.a, I1=top.I1, I3=top.I3)
     except TopError:

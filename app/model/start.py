@@ -117,7 +117,7 @@ class Start:
         try:
             top = self.top
         except TopError:  # reported where it matters
-            return toy_of(self.shape, self.shape.top)
+            return toy_of(self.shape, self.shape.top, self.shape.scales)
         return toy_of(self.shape if fits(self.shape, top) else None, top, self.shape.scales)
 
     @property

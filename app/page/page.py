@@ -103,7 +103,7 @@ def tells(head, rooms, session):
         head.tops(*choices.tops(session.toy(rooms.room)))
 
     rooms.param.watch(tell, "room")
-    session.explorer.param.watch(lambda event: event.old.body != event.new.body and tell(), "start")
+    session.explorer.when("body", tell)
     session.builder.param.watch(tell, "draft")
     tell()
 

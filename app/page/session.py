@@ -136,7 +136,7 @@ class Session:
                            "--edge": "0" if is_beside else "24px"}  # fmt: skip
 
         self._at_levels(lambda explores: show())
-        self.explorer.param.watch(lambda event: event.old.table != event.new.table and show(), "start")
+        self.explorer.when("table", show)
         return view
 
     def _research(self, follow):

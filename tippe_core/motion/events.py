@@ -154,6 +154,12 @@ def enter(W: Record, log: Array, t: float, name: int, supports: int) -> None:
     W.logged += 1
 
 
+def lands(W: Record, log: Array, event: Event) -> None:
+    """Adds to the log how a start that moves into the table lands, after its impact."""
+    ball, stem = W.modes
+    logged(W, log, change(OPEN, OPEN, ball, stem, event), ball, stem)
+
+
 def first(log: Any, name: int) -> float:
     """When something happens for the first time, nan if never."""
     return float(next(iter(log["t"][log["name"] == name]), np.nan))

@@ -22,7 +22,7 @@ from .kinds import STARTS, TOUCHES
 from .nudge import beside, checked_nudge
 from .periodic import run_all
 from .poses import sample_at
-from .records import BALL, LOG, OPEN, SAMPLE, STEM, Record, new
+from .records import LOG, OPEN, SAMPLE, Record, new
 from .run import ENDED, MORE
 from .summary import begin, energy_at
 
@@ -290,7 +290,7 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
     E = energy_at(W, P) + W.y[at.HEAT]
     begin(W, P, log, (1 - LAST) * t_end)
     if goes_on and event[0] == TOUCHES:
-        events.logged(W, log, events.change(OPEN, OPEN, W.modes[BALL], W.modes[STEM], event), *W.modes)
+        events.lands(W, log, event)
     if goes_on and not carried(*W.modes) and not how.flies and event[0] == STARTS:
         events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
     elif goes_on:
@@ -307,15 +307,8 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
         else {1 << i: support for i, support in enumerate(events.SUPPORTS)}.get(T.seen, "")
     )
     sample_at(W, P, OPEN, OPEN, here)
-    row["state"] = [
-        here.theta,
-        *here.omega,
-        here.phi,
-        here.psi,
-        *here.com[:2],
-        *here.velocity[:2],
-        *([np.nan] * 2 if carried(*W.modes) else [here.com[2], here.velocity[2]]),
-    ]
+    flight = [np.nan] * 2 if carried(*W.modes) else [here.com[2], here.velocity[2]]
+    row["state"] = [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2], *flight]
     row["time_90"], row["time_stem"] = (
         events.first(entries, events.PASSES_90),
         events.first(entries, events.FIRST_TOUCH),

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite, single
+from ..errors import TopError, finite
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Number
 from . import preparing
-from .friction import LAWS, Friction
+from .friction import Friction
 from .records import Record
 from .sliding import slide
 from .trajectory import Trajectory
@@ -44,12 +44,9 @@ def sensitivity(
         as slide(); for nudge = 0
     """
     nudge = checked_nudge(nudge)
-    single("top", top, Top)
-    single("state", state, State)
-    single("friction", friction, *LAWS)
+    moved = slide(top, state, friction, times, **how)
     P = preparing.problem(top, friction, preparing.checked_edge(how.get("edge")), (0.0, 0.0), 1e-9)
-    moved, near = (slide(top, start, friction, times, **how) for start in (state, beside(state, nudge, P)))
-    return growth(moved, near, nudge)
+    return growth(moved, slide(top, beside(state, nudge, P), friction, times, **how), nudge)
 
 
 def checked_nudge(nudge: float) -> float:

@@ -19,7 +19,7 @@ from .dynamics import carried
 from .friction import LAWS, Friction
 from .kinds import NONE, STARTS, TOUCHES
 from .poses import REGIMES, sample_at
-from .records import BALL, LOG, OPEN, SAMPLE, SLIP, STEM
+from .records import LOG, OPEN, SAMPLE, SLIP
 from .rolling_part import RollingPart
 from .run import ENDED, HANDS_OVER, MORE, run
 from .summary import begin
@@ -157,13 +157,13 @@ class Sliding:
         self._last = self._begins = float(begins)
         self._part: RollingPart | None = None
         self._sinks: tuple[int, float] | None = None  # the row, and the time, at which another part touches
-        (kind, self._stands_on), goes_on = start = preparing.start(W, P, state)
+        (kind, self._stands_on), goes_on = preparing.start(W, P, state)
         begin(W, P, self._log, np.inf)
         self._first = carried(*W.modes) if goes_on else 1 + self._stands_on
         if not goes_on:
             events.logged(W, self._log, events.PAINLEVE, OPEN, OPEN)
         elif kind == TOUCHES:
-            events.logged(W, self._log, events.change(OPEN, OPEN, W.modes[BALL], W.modes[STEM], start[0]), *W.modes)
+            events.lands(W, self._log, (kind, self._stands_on))
         elif self._first == 0 and kind == STARTS:
             events.logged(W, self._log, events.LIFTS_OFF, OPEN, OPEN)
         self.ended = not (goes_on and (self._first or self._flies or kind == NONE))

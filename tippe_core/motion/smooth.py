@@ -133,16 +133,8 @@ class Gliding(Nutation):
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
-        return gliding_omega(
-            cos_half,
-            sin_half,
-            v,
-            m,
-            self._dt_dkappa(cos_half, sin_half, v, m),
-            self._B_slope,
-            self.start.omega3,
-            self.ends,
-        )
+        dt_dkappa = self._dt_dkappa(cos_half, sin_half, v, m)
+        return gliding_omega(cos_half, sin_half, v, m, dt_dkappa, self._B_slope, self.start.omega3, self.ends)
 
     @cached_property
     def lift_off(self) -> float:

@@ -147,12 +147,14 @@ def _at_most(look: Callable[[float], object], share: float, done: float) -> None
 def _may_stand(top: Top, last: list[Array]) -> Bools:
     """Whether runs that are in these fields of States may come to stand upside down: they have the energy, and are not
     upright with a spin at which that is stable. Only for tops with a > 0."""
-    theta, theta_dot, omega2, omega3, *_, vx, vy, _z, _vz = last
-    rise = top.a * np.sin(theta) * theta_dot
-    turning = top.I1 * (theta_dot**2 + omega2**2) + top.I3 * omega3**2
-    energy = (turning + vx**2 + vy**2 + rise**2) / 2 + 1 - top.a * np.cos(theta)
+    now = States(*last)
+    rise = top.a * np.sin(now.theta) * now.theta_dot
+    turning = top.I1 * (now.theta_dot**2 + now.omega2**2) + top.I3 * now.omega3**2
+    energy = (turning + now.vx**2 + now.vy**2 + rise**2) / 2 + 1 - top.a * np.cos(now.theta)
     change = thresholds(top).upright
-    stays = change.stable == "always" or (change.stable == "below") & (np.abs(omega3) < change.spin) & (theta < LOW)
+    stays = change.stable == "always" or (change.stable == "below") & (np.abs(now.omega3) < change.spin) & (
+        now.theta < LOW
+    )
     return np.asarray((top.a > 0) & (energy > 1 + top.a) & ~np.asarray(stays))
 
 

@@ -58,7 +58,7 @@ class VerdictWords:
         shape = scene.shape
         if shape is None:
             return
-        self._ends(start_of(toy_of(shape, scene.top), 0.0, TILT, MU))
+        self._ends(start_of(toy_of(shape, scene.top, scene.scales), 0.0, TILT, MU))
         if shape == self._shape:
             return
         self._shape = shape

@@ -68,7 +68,7 @@ class Research(param.Parameterized):
             scheduler.shows(partial(self._on_scene, when), when)
         lab.param.watch(lambda event: self._on_run(), "scene")
         self.param.watch(lambda event: self._look(), "panel")
-        lab.explorer.param.watch(lambda event: event.old.table != event.new.table and self._look(), "start")
+        lab.explorer.when("table", self._look)
 
     @property
     def shown(self):
