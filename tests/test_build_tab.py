@@ -191,12 +191,17 @@ def test_a_body_that_cannot_be_let_go_so_has_a_verdict_that_says_so(monkeypatch)
     assert found.code == "refused" and "could not be computed" in found.headline and "mu < 0.2" in found.why
 
 
+def scene_of(shape, top=None):
+    """What VerdictWords reads of a Scene."""
+    return SimpleNamespace(shape=shape, top=top or shape.top, scales=shape.scales)
+
+
 def test_the_words_beside_the_body_are_of_that_body():
     runs = Runs()
     told = VerdictWords(runs)
     assert "Working out" in told.view.object
     toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
-    told.show(SimpleNamespace(shape=toy, top=toy.top))
+    told.show(scene_of(toy))
     assert "Yes: it gets onto its stem." in told.view.object and "Working out" not in told.view.object
     told.show(SimpleNamespace(shape=None, top=toy.top))  # set independently of a body: nothing is known of it
     assert "Yes: it gets onto its stem." in told.view.object
@@ -227,7 +232,7 @@ def ending_in(monkeypatch, error):
 def test_the_strip_says_what_came_of_it_and_is_asked_for_again(monkeypatch, error, says, again):
     asked = ending_in(monkeypatch, error)
     told, preset = VerdictWords(Runs()), PRESETS[0]
-    scene = SimpleNamespace(shape=preset.shape, top=preset.top)
+    scene = scene_of(preset.shape, preset.top)
     for times in (1, 2):
         told.show(scene)
         assert says in told.strip.object and "Working it out" not in told.strip.object
@@ -238,8 +243,8 @@ def test_the_strip_is_of_the_scene_that_is_shown(monkeypatch):
     asked = ending_in(monkeypatch, Stopped())
     told, preset = VerdictWords(Runs()), PRESETS[0]
     own = changed(preset.shape, "a", 0.0) if hasattr(preset.shape, "a") else PRESETS[1].shape
-    told.show(SimpleNamespace(shape=preset.shape, top=preset.top))
-    told.show(SimpleNamespace(shape=own, top=own.top))
+    told.show(scene_of(preset.shape, preset.top))
+    told.show(scene_of(own))
     assert [key.shape for (key,) in asked] == [preset.shape, own] and asked[0][0].top == preset.top
 
 
@@ -250,5 +255,5 @@ def test_a_verdict_that_nobody_computed_says_so(monkeypatch):
     ending_in(monkeypatch, Stopped())
     monkeypatch.setattr("app.tabs.build.verdict.verdict", never)
     told = VerdictWords(Runs())
-    told.show(SimpleNamespace(shape=PRESETS[0].shape, top=PRESETS[0].top))
+    told.show(scene_of(PRESETS[0].shape))
     assert "17 computations wait" in told.view.object and "Working out" not in told.view.object

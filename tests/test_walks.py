@@ -156,7 +156,7 @@ FOLLOW = {
     "measure": {"Measure.show"},
 }  # fmt: skip
 # And what else listens to the start: the panel that fits the table, and where it is.
-HEARS = {"lab": {("start", "Session.lab"), ("start", "Research.__init__")}}
+HEARS = {"lab": {("start", "Session.lab"), ("start", "Research._look")}}
 
 
 def hearers(explorer):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, wraps
 from math import floor, log10, nan
 from types import MappingProxyType
 from typing import Any
@@ -58,6 +58,7 @@ class Explorer(param.Parameterized):
     def when(self, name: str, run: Callable[[], object]) -> None:
         """Calls run() whenever this of the start, an input or what it has, becomes another."""
 
+        @wraps(run)  # a list of watchers says what they run
         def changed(event: param.parameterized.Event) -> None:
             if getattr(event.old, name) != getattr(event.new, name):
                 run()
