@@ -3,6 +3,7 @@
 import json
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import measured_bodies as bodies
 import numpy as np
@@ -133,21 +134,22 @@ def test_a_model_that_stays_far_worse_is_given_up_after_a_few_starts(times, give
     ends = {"rolling": 1.0, "smoothed": times * search.WORSE}
     whole = {name: 0 for name in ends}
 
-    def followed(problem, x, steps, row=search.ALL, exactly=False):
+    def followed(problem, x, steps=0, row=search.ALL, exactly=False):
         whole[problem.model.name] += row is search.ALL and not exactly
         return ends[problem.model.name] * problem.count, x
 
     monkeypatch.setattr(search.Problem, "followed", followed)
     monkeypatch.setattr(search.Problem, "best_of", lambda problem, starts, most, row=search.ALL: starts[:most])
     monkeypatch.setattr(search, "scattered", lambda model, data: [])
-    monkeypatch.setattr(search, "_judged", lambda problem, x, sure, others, given_up=False: given_up)
+    monkeypatch.setattr(search, "_judged", lambda problem, x, sure, others, given_up=False: SimpleNamespace(
+        chi2=ends[problem.model.name] * problem.count, given_up=given_up))  # fmt: skip
     data = Data({"tilt": Series(T, np.full(len(T), 0.3), 0.01)})
     rolling, sliding = (model_of(name, Top.paper(), SIZES) for name in ends)
-    assert search.fit_both((rolling, sliding), data) == (False, given_up)
+    assert [each.given_up for each in search.fit_both((rolling, sliding), data)] == [False, given_up]
     assert whole["smoothed"] == starts
-    assert search.fit_both((sliding, rolling), data) == (given_up, False)
+    assert [each.given_up for each in search.fit_both((sliding, rolling), data)] == [given_up, False]
     ends["rolling"] = ends["smoothed"] = search.NO_MOTION**2  # neither is a motion
-    assert search.fit_both((rolling, sliding), data) == (False, False)
+    assert [each.given_up for each in search.fit_both((rolling, sliding), data)] == [False, False]
 
 
 def test_values_that_are_far_off_can_be_left_out(monkeypatch):

@@ -34,6 +34,7 @@ FAR = 6.0  # standard errors: a value that is farther off was hardly measured ri
 FEW = 0.1  # of the values: if more are far off, it is the model that is wrong
 AT_END = 0.01  # of its value: a number so close to its bound was decided by it
 CLEARLY = 6.0  # difference in AIC above which one model is said to be better
+WRONG = 10.0  # times the number of values: of a larger chi-square, a rise by 4 means nothing
 WORSE = 50.0  # times the chi-square of the other: a model that stays as bad from its first starts is given up
 
 End = tuple[float, Array]
@@ -162,10 +163,13 @@ def fit(model: Model, data: Data) -> Fit:
 
 def fit_both(models: tuple[Model, Model], data: Data) -> tuple[Fit, Fit]:
     """The best Fit of each; a model whose first starts all end WORSE times higher than the other's is given up."""
-    one, other = models
-    first, ends = _begun(one, data)
-    second, others = _begun(other, data, _lowest(ends))
-    return _ended(first, ends, _lowest(others)), _ended(second, others, _lowest(ends))
+    first = _begun(models[0], data)
+    second = _begun(models[1], data, _lowest(first[1]))
+    if _lowest(first[1]) <= _lowest(second[1]):
+        best = _ended(*first)
+        return best, _ended(*second, best.chi2)
+    best = _ended(*second)
+    return _ended(*first, best.chi2), best
 
 
 def _begun(model: Model, data: Data, rival: float = math.inf) -> tuple["Problem", list[End]]:
@@ -174,14 +178,9 @@ def _begun(model: Model, data: Data, rival: float = math.inf) -> tuple["Problem"
     if (count := problem.count) <= len(model.free) + shifted(data):
         raise TopError("values", count, "more than {least} measured values", "Free fewer numbers, or measure more.",
                        code="too-few-values", least=len(model.free) + shifted(data))  # fmt: skip
-    # First only the beginning: over a whole motion, with its many turns, there are many false minima.
-    t = np.concatenate([series.t for series in data.series.values()])
-    shares = [t <= t.min() + share * np.ptp(t) for share in GROWING]
     ends: list[End] = []
-    for x in problem.best_of(starts(model, data), STARTS, shares[0]):
-        for row in shares:
-            x = problem.followed(x, 12, row)[1]
-        ends.append(problem.followed(x, 25))
+    for x in problem.best_of(starts(model, data), STARTS, problem.beginning(GROWING[0])):
+        ends.append(problem.grown(x))
         if len(ends) >= AGREEING and problem.is_worse(_lowest(ends), rival):
             break
     return problem, ends
@@ -193,8 +192,10 @@ def _ended(problem: "Problem", ends: list[End], rival: float = math.inf) -> Fit:
         return _judged(problem, min(ends, key=lambda end: end[0])[1], False, [], given_up=True)
     if not _settled(ends, problem):
         # The beginning hardly depends on the friction law, so the fit of it may have gone astray: fit the whole motion.
+        # A rolling motion has no law, and over the whole of it hardly a start leads to the right number of turns.
+        search = problem.grown if problem.model.name == "rolling" else problem.followed
         for x in problem.best_of(scattered(problem.model, problem.data), FOLLOWED):
-            ends.append(problem.followed(x, 25))
+            ends.append(search(x))
             if _settled(ends, problem):
                 break
     best, x = _least(ends, problem)
@@ -268,7 +269,19 @@ class Problem:
         inside = [np.clip(x, self.bounds[0] + 1e-6, self.bounds[1] - 1e-6) for x in starts]
         return sorted(inside, key=lambda x: float(np.sum(self.residuals(x)[row] ** 2)))[:most]
 
-    def followed(self, x: Array, steps: int, row: Array | slice = ALL, exactly: bool = False) -> End:
+    def beginning(self, share: float) -> Array:
+        """Which values belong to this share of the time."""
+        t = np.concatenate([series.t for series in self.data.series.values()])
+        return np.asarray(t <= t.min() + share * np.ptp(t))
+
+    def grown(self, x: Array) -> End:
+        """Where the fit of the whole motion ends if its beginning is fitted first: over a whole motion, with its many
+        turns, there are many false minima."""
+        for share in GROWING:
+            x = self.followed(x, 12, self.beginning(share))[1]
+        return self.followed(x)
+
+    def followed(self, x: Array, steps: int = 25, row: Array | slice = ALL, exactly: bool = False) -> End:
         """(chi-square, parameters) at the end of a least-squares fit from x."""
         narrow = {"xtol": 1e-10, "ftol": 1e-10} if exactly else {}
         found = least_squares(lambda x: self.residuals(x)[row], x, lambda x: self.slopes(x)[row], self.bounds,
@@ -293,7 +306,8 @@ class Problem:
 
 def _judged(problem: "Problem", x: Array, sure: bool, others: list[Array], given_up: bool = False) -> Fit:
     model, data, names = problem.model, problem.data, problem.model.free
-    found = Known.of_curvature(problem, x) if given_up else known(problem, x)
+    wrong = float(np.sum(problem.residuals(x) ** 2)) > WRONG * problem.count
+    found = Known.of_curvature(problem, x) if given_up or wrong else known(problem, x)
     for _ in range(MOST_BETTER):
         if found.better is None:
             break
