@@ -12,7 +12,7 @@ from scipy.stats import norm
 
 from app.model.measured.data import Data, are_handed
 from app.model.measured.known import RISE, Known, known
-from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, Model, Residuals, residuals_of, shifted
+from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, START, Model, Residuals, residuals_of, shifted
 from app.model.measured.starts import around, scattered, starts
 from app.model.runs import look
 from tippe_core import Constants, TopError
@@ -135,23 +135,20 @@ class Fit:
     @property
     def constants(self) -> dict[str, tuple[float, float]]:
         """{K_J, K_R, E: (value at the start, standard error)}."""
-        names = self.model.free
-        here = _constants(self.model)
         slopes = []
-        for name in names:
+        for name in self.model.free:
             step = STEP * max(abs(self.model.values[name]), SIZES.get(name, 0.0))
             high, low = (_constants(self.model.with_values({name: self.model.values[name] + way * step}))
                          for way in (1, -1))  # fmt: skip
             slopes.append((high - low) / (2 * step))
-        spread = np.array(slopes).T @ self.covariance @ np.array(slopes)
-        return {name: (float(value), float(np.sqrt(error)))
-                for name, value, error in zip(("K_J", "K_R", "E"), here, np.diag(spread), strict=True)}  # fmt: skip
+        errors = np.sqrt(np.diag(np.array(slopes).T @ self.covariance @ np.array(slopes)))
+        found = zip(_constants(self.model).tolist(), errors.tolist(), strict=True)
+        return dict(zip(("K_J", "K_R", "E"), found, strict=True))
 
 
 def _constants(model: Model) -> Array:
-    v = model.values
-    top = type(model.top)(*(v[name] for name in BODY))
-    found = Constants.from_state(top, v["tilt"], v["tilt_rate"], v["across"], v["spin"])
+    top = type(model.top)(*(model.values[name] for name in BODY))
+    found = Constants.from_state(top, *(model.values[name] for name in START))
     return np.array([found.K_J, found.K_R, found.E], dtype=float)
 
 
@@ -306,8 +303,8 @@ class Problem:
 
 def _judged(problem: "Problem", x: Array, sure: bool, others: list[Array], given_up: bool = False) -> Fit:
     model, data, names = problem.model, problem.data, problem.model.free
-    wrong = float(np.sum(problem.residuals(x) ** 2)) > WRONG * problem.count
-    found = Known.of_curvature(problem, x) if given_up or wrong else known(problem, x)
+    far_off = given_up or np.sum(problem.residuals(x) ** 2) > WRONG * problem.count
+    found = Known.of_curvature(problem, x) if far_off else known(problem, x)
     for _ in range(MOST_BETTER):
         if found.better is None:
             break
