@@ -18,7 +18,7 @@ import inspect
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-SAME = {"compiled", "shared_with_kernels", "kept"}
+SAME = {"compiled", "kept"}
 """Decorators that change when and where something is computed, not what."""
 SKIPPED = {"ctx", "kind", "type_comment", "type_params", "annotation", "returns", "simple"}
 FUNCTIONS = ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda

@@ -25,12 +25,11 @@ from wire import Visitor, run
 import tippe_core
 from tippe_core import kept
 from tippe_core.ahead import CALLS, compile_all
-from tippe_core.compiled import Kernel, ahead, compiled, not_kept, shared_with_kernels, why_not
+from tippe_core.compiled import Kernel, ahead, compiled, not_kept, why_not
 
 ROOT = Path(__file__).parent.parent
-CALLEE = """from .compiled import compiled, shared_with_kernels
+CALLEE = """from .compiled import compiled
 
-@shared_with_kernels
 def product(x, y):
     return x * y
 
@@ -277,11 +276,11 @@ def test_what_imports_the_core_does_not_import_numba():
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0
 
 
-def test_what_is_shared_with_kernels_is_python_elsewhere_and_divides_as_they_do():
-    @shared_with_kernels
-    def inverse(x):
-        return 1 / x
+def inverse(x):
+    return 1 / x
 
+
+def test_what_a_kernel_calls_is_python_elsewhere_and_divides_as_it_does():
     @compiled
     def least(x):
         return -inverse(x)

@@ -1,11 +1,30 @@
 """Top, Scales, Constants, State: what they accept, and that errors name the value and the allowed range."""
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 import pytest
 import rigid_body as rb
 from cases import PAPER, TOPS
 
-from tippe_core import BareSphere, Constants, Scales, State, Top, TopError, limit_energy, roll, tielines, turning_points
+from tippe_core import (
+    BareSphere,
+    Constants,
+    Coulomb,
+    Scales,
+    State,
+    Top,
+    TopError,
+    glide,
+    grip,
+    limit_energy,
+    outcome,
+    roll,
+    slide,
+    tielines,
+    turning_points,
+)
 
 
 def test_paper():
@@ -116,3 +135,40 @@ def test_a_body_may_have_all_its_mass_at_its_surface(a, I1, I3):
     BareSphere(R=0.02, M=0.02, a=part * a, I1=part * I1, I3=part * I3)
     with pytest.raises(TopError, match="fit into the body"):
         BareSphere(R=0.02, M=0.02, a=1.001 * a, I1=1.001 * I1, I3=1.001 * I3)
+
+
+START, TIMES = State(0.1, 0.0, 0.0, 9.0), [0.0, 1.0]
+MANY_TOPS, MANY_STATES = Top(np.array([0.1, 0.2]), 0.4, 0.4), State(np.array([0.1, 0.2]), 0.0, 0.0, 9.0)
+
+
+@pytest.mark.parametrize("move", [lambda top, state: roll(top, None, TIMES, state),
+                                  lambda top, state: slide(top, state, Coulomb(0.3), TIMES), glide, grip, outcome],
+                         ids=["roll", "slide", "glide", "grip", "outcome"])  # fmt: skip
+def test_what_takes_one_top_and_one_state_says_so(move):
+    """Neither None nor many of them: the error names the argument, and where many belong."""
+    given = partial(move, times=TIMES) if move is glide else move
+    with pytest.raises(TopError, match=r"^top = None"):
+        given(None, START)
+    with pytest.raises(TopError, match=r"^top = Top.*slide_many\(\)"):
+        given(MANY_TOPS, START)
+    with pytest.raises(TopError, match=r"^state = State.*slide_many\(\)"):
+        given(PAPER, MANY_STATES)
+
+
+@pytest.mark.parametrize("one, same, other", [
+    (MANY_STATES, State([0.1, 0.2], 0.0, 0.0, 9.0), State([0.1, 0.3], 0.0, 0.0, 9.0)),
+    (MANY_TOPS, Top([0.1, 0.2], 0.4, 0.4), Top(0.1, 0.4, 0.4)),
+    (State(0.1, -0.0, 0.0, 9.0), START, State(0.1, 0.0, 0.0, 9.0, z=2.0)),
+])  # fmt: skip
+def test_equality_is_one_bool(one, same, other):
+    assert (one == same) is True and hash(one) == hash(same)
+    assert (one == other) is False and (one == 1) is False
+
+
+def test_grip_needs_the_table():
+    """At the height 1 - a c of G the ball touches the table; higher up nothing is gripped."""
+    touches = 1 - PAPER.a * np.cos(START.theta)
+    assert grip(PAPER, replace(START, z=touches))[1] > 0
+    with pytest.raises(TopError) as error:
+        grip(PAPER, replace(START, z=touches + 1e-6))
+    assert error.value.code == "in-flight"

@@ -10,6 +10,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from types import FunctionType, ModuleType
 from typing import Any, TypeAlias, TypeVar, cast
 
 from . import kept
@@ -19,7 +20,7 @@ Numba: TypeAlias = Any  # a module, a dispatcher or a type of numba, which ships
 
 _INSTALLED = importlib.util.find_spec("numba") is not None  # without importing it
 _making = threading.RLock()
-_shared: list[Callable[..., Any]] = []  # not yet registered with numba
+_shared: set[Callable[..., Any]] = set()  # with numba: it may compile them into kernels
 _compiler: int | None = None  # the thread that compiles ahead of time, while there is one
 made: list[str] = []  # kernels that this process had to compile, each with the types of its arguments
 _unwritten: dict[str, str] = {}  # kernels that could not be stored, and why
@@ -27,15 +28,9 @@ _unwritten: dict[str, str] = {}  # kernels that could not be stored, and why
 
 def compiled(function: Function) -> Function:
     """Decorator: compiles function at its first call and stores the result on disk. The arguments are numbers, arrays
-    and named tuples of them; it runs without the GIL, and dividing by 0 gives inf or nan as in numpy."""
+    and named tuples of them; it runs without the GIL, and dividing by 0 gives inf or nan as in numpy. The functions
+    that it calls need no mark: they are compiled into it, and stay as they are for floats, arrays and Decimals."""
     return cast(Function, Kernel(function)) if _INSTALLED else function
-
-
-def shared_with_kernels(function: Function) -> Function:
-    """Decorator: leaves function as it is, for floats, arrays and Decimals. Kernels may call it; it is compiled into
-    them."""
-    _shared.append(function)
-    return function
 
 
 class Kernel:
@@ -103,14 +98,25 @@ def _numba() -> Numba:
 def _dispatcher(function: Callable[..., Any]) -> Numba:
     if why_not():
         return function
-    while _shared:
-        importlib.import_module("numba.extending").register_jitable(error_model="numpy")(_shared.pop())
+    _share_called(function)
     dispatcher = _numba().njit(nogil=True, error_model="numpy")(function)
     with suppress(ImportError, AttributeError):  # private parts; without them each process compiles the kernels anew
         if kept.folder() is not None and Path(function.__code__.co_filename).is_file():
             dispatcher._cache = _cache()(function)
         _once(dispatcher)
     return dispatcher
+
+
+def _share_called(function: Callable[..., Any]) -> None:
+    """Lets numba compile the functions that this one calls, by their names or as attributes of modules."""
+    called, names = function.__globals__, function.__code__.co_names
+    modules = [vars(called[name]) for name in names if isinstance(called.get(name), ModuleType)]
+    for found in (space.get(name) for name in names for space in (called, *modules)):
+        ours = isinstance(found, FunctionType) and found.__module__.partition(".")[0] not in ("numpy", "numba")
+        if ours and found not in _shared:
+            _shared.add(found)
+            importlib.import_module("numba.extending").register_jitable(error_model="numpy")(found)
+            _share_called(found)
 
 
 def _once(dispatcher: Numba) -> None:

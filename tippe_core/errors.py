@@ -13,6 +13,7 @@ CODES = {
     "out-of-range": "outside the range that `allowed` gives as a formula",
     "not-finite": "nan, infinity, or no number at all",
     "wrong-kind": "of another type than those that `allowed` names as Python does",
+    "many": "arrays in the place of numbers",
     "wrong-count": "too many values, or too few",
     "not-whole": "not a whole number of that range",
     "falling": "a value less than the one before it",
@@ -30,6 +31,7 @@ CODES = {
     "energy-not-resolved": "an energy whose nutation takes almost for ever",
     "start-not-resolved": "a start whose nutation takes almost for ever",
     # friction and contacts
+    "in-flight": "a top that does not touch the table",
     "below-sliding": "friction at rest smaller than that of sliding",
     "too-strong": "friction that no normal force balances (Painleve's paradox)",
     "not-followed": "friction under which the equations could not be integrated",
@@ -128,9 +130,22 @@ def finite(name: str, value: SupportsFloat) -> float:
 
 def single(name: str, value: Any, *kinds: type) -> Any:
     """value, or a TopError unless it is of one of these kinds and none of its fields is an array."""
-    if not isinstance(value, kinds) or has_arrays(value):
+    if not isinstance(value, kinds):
         raise TopError(name, value, " | ".join(kind.__name__ for kind in kinds), code="wrong-kind")
+    if has_arrays(value):
+        raise TopError(name, value, "{kind} of numbers", "These are many: take one, or give all to slide_many().",
+                       code="many", kind=type(value).__name__)  # fmt: skip
     return value
+
+
+class Compared:
+    """Equality of frozen records, field by field, whose fields may be arrays."""
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and all(map(np.array_equal, vars(self).values(), vars(other).values()))
+
+    def __hash__(self) -> int:
+        return hash(tuple(x.tobytes() if isinstance(x, np.ndarray) else x for x in vars(self).values()))
 
 
 def has_arrays(record: Any) -> bool:

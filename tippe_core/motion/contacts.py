@@ -8,7 +8,7 @@ not say what follows. If nothing presses the contact down (u_z' > 0 without cont
 
 import numpy as np
 
-from ..compiled import compiled, shared_with_kernels
+from ..compiled import compiled
 from ..paper.search import zero
 from ..types import Array, Bools, Indices, Number
 from . import at
@@ -32,7 +32,6 @@ DIRECTIONS = 64
 MODES_IN_ORDER = np.array([[2, 2], [2, 1], [1, 2], [1, 1], [0, 2], [2, 0], [0, 1], [1, 0], [0, 0]])
 
 
-@compiled
 def spare(i: int, P: Record, C: Record, alone: bool) -> float:
     """How far static friction at contact i is below its limit: mu_s N - F_h, and the same for its torque."""
     most, twists = bounds(P.law)
@@ -42,7 +41,6 @@ def spare(i: int, P: Record, C: Record, alone: bool) -> float:
     return holds
 
 
-@compiled
 def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -> float:
     """A cheap estimate of how close the guards are to 0, after rates()."""
     least = minor
@@ -63,13 +61,11 @@ def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -
     return least
 
 
-@shared_with_kernels
 def tilt_guards(up: Number, P: Record) -> tuple[Number, ...]:
     """The guards that follow from e_z alone, of the kinds from RIM on; also of arrays."""
     return (up - P.rim,)
 
 
-@compiled
 def guards(
     y: Array, slowest: int, ball: int, stem: int, floor: Array, P: Record, S: Record, C: Record, out: Array
 ) -> None:
@@ -98,13 +94,11 @@ def guards(
         out[ROCKS, BALL] = max(s / FLAT - 1, rate + SLACK)
 
 
-@compiled
 def known(y: Array, C: Record) -> None:
     """Copies v and z into y, after arrange()."""
     y[at.VX], y[at.VY], y[at.VZ], y[at.Z] = C.G[0], C.G[1], C.G[2], C.G[3]
 
 
-@compiled
 def first_negative(found: Array) -> Event:
     """The event of the first guard below 0 (or nan), or NONE."""
     for kind in range(len(found)):
@@ -117,7 +111,6 @@ def first_negative(found: Array) -> Event:
 # ---- slipping ----
 
 
-@compiled
 def may_stick(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> bool:
     """Whether contact i could stick in this state."""
     ball, stem = STICK if i == BALL else ball, STICK if i == STEM else stem
@@ -125,7 +118,6 @@ def may_stick(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> b
     return spare(i, P, C, ball == OPEN or stem == OPEN) >= 0.0
 
 
-@compiled
 def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> None:
     """y with a minimal slip at a contact that starts to slip, in the direction in which the slip grows."""
     for i in range(1 + P.stem):
@@ -138,7 +130,6 @@ def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> N
                 y[at.VY] += STILL * np.sin(beta) - u[1]
 
 
-@compiled
 def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
     """The direction beta of a slip that begins: u' is parallel to u; if there are several, the fastest-growing one."""
     best, found, last, given = -np.inf, 0.0, 0.0, (y, ball, stem, i, P, S, C)
@@ -154,7 +145,6 @@ def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: R
     return found
 
 
-@shared_with_kernels
 def sideways_rate(beta: float, y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
     """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, LOG_U] is the
     parallel one."""
@@ -164,7 +154,6 @@ def sideways_rate(beta: float, y: Array, ball: int, stem: int, i: int, P: Record
     return S.K[0, at.BETA]
 
 
-@compiled
 def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> None:
     """y with a minimal slip and spin at a patch that starts to slide, opposite to the force and torque that held it."""
     ball, stem = STICK if i == BALL else ball, STICK if i == STEM else stem
@@ -217,7 +206,6 @@ def settle(y: Array, event: Event, modes: Indices, P: Record, S: Record, C: Reco
     return choose(y, options, modes, P, S, C)
 
 
-@compiled
 def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Record) -> bool:
     """Writes the contact modes from now on into modes: none pulls, none penetrates, none exceeds its static friction.
 
@@ -249,7 +237,6 @@ def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Re
     return True
 
 
-@compiled
 def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Bools, P: Record, C: Record) -> float:
     """The largest violation at either contact: pulling, penetrating, or exceeding static friction."""
     worst = -np.inf
@@ -265,7 +252,6 @@ def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Bools, P
     return worst if worst > -np.inf else 0.0
 
 
-@compiled
 def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
     """y with both contacts closed, if they meet so softly that it cannot be resolved and both would carry.
 
@@ -292,7 +278,6 @@ def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
     give_impulse(y, STEM, J, P, C)
 
 
-@compiled
 def rocked(y: Array, P: Record, C: Record) -> None:
     """y leaning on the opposite point of the rim; the energy lost in this small rotation is counted as heat."""
     e, _, L3 = turning(y, P)

@@ -56,12 +56,10 @@ def carried(ball: int, stem: int) -> int:
     return (1 if ball != OPEN else 0) + (2 if stem != OPEN else 0)
 
 
-@compiled
 def cross(x: Vector, y: Vector) -> Vector:
     return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
 
 
-@compiled
 def row(rows: Array, i: int) -> Vector:
     return rows[i, 0], rows[i, 1], rows[i, 2]
 
@@ -76,7 +74,6 @@ def turning(y: Array, P: Record) -> Turning:
     return e, (L[0] / P.I1 + along * e[0], L[1] / P.I1 + along * e[1], L[2] / P.I1 + along * e[2]), L3
 
 
-@compiled
 def locate_contacts(e: Vector, w: Vector, P: Record, C: Record) -> None:
     """rho and rho' of each contact."""
     e_dot = cross(w, e)
@@ -120,14 +117,12 @@ def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) 
     return e, w, L3
 
 
-@compiled
 def angular(torque: Vector, e: Vector, P: Record) -> Vector:
     """L'/I1 + k (L' . e) e: the part of w' due to a torque."""
     along = P.k * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
     return torque[0] / P.I1 + along * e[0], torque[1] / P.I1 + along * e[1], torque[2] / P.I1 + along * e[2]
 
 
-@compiled
 def column(C: Record, n: int, i: int, part: int, F: Vector, M: Vector) -> int:
     """Adds an unknown: the magnitude of the force F, with the torque M in addition to rho x F, at contact i.
 
@@ -140,7 +135,6 @@ def column(C: Record, n: int, i: int, part: int, F: Vector, M: Vector) -> int:
     return n + 1
 
 
-@compiled
 def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
     """The component `part` of v' + w' x rho_i, or w_z' (3)."""
     if part == 3:
@@ -148,7 +142,6 @@ def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
     return F[part] + cross(w_dot, row(C.rho, i))[part]
 
 
-@compiled
 def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
     """Sets up the columns of all unknowns and returns their number."""
     n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING)
@@ -168,7 +161,6 @@ def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
     return n
 
 
-@compiled
 def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
     """Writes the contact forces and torques and the accelerations into C, after arrange().
 
@@ -221,7 +213,6 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
     return minor
 
 
-@compiled
 def alone(turn: Turning, drag: Vector, free: Vector, i: int, P: Record, C: Record) -> float:
     """forces() if only contact i is closed, and slips: its N follows from u_z' = 0, which is linear in N."""
     (e, w, _), rho = turn, row(C.rho, i)
@@ -243,7 +234,6 @@ def alone(turn: Turning, drag: Vector, free: Vector, i: int, P: Record, C: Recor
     return rises
 
 
-@compiled
 def least_along_the_line(C: Record) -> None:
     """If both contacts stick, a pair of forces d and -d along the line between them has no effect. M + n n^T with
     n = (d, -d) makes the equations regular; their solution has no component along n."""
@@ -255,7 +245,6 @@ def least_along_the_line(C: Record) -> None:
             C.matrix[r, j] += along[r] * along[j]
 
 
-@compiled
 def share_along_the_line(P: Record, C: Record) -> None:
     """Where the least forces exceed static friction at one contact, the other takes what it can of the force along the
     line, which changes nothing else."""
@@ -271,14 +260,12 @@ def share_along_the_line(P: Record, C: Record) -> None:
             C.F[1 - i, 0], C.F[1 - i, 1] = C.F[1 - i, 0] + moves * dx, C.F[1 - i, 1] + moves * dy
 
 
-@compiled
 def slip_rate(w: Vector, i: int, part: int, C: Record) -> float:
     """u_i' = v' + w' x rho_i + w x rho_i', after forces()."""
     w_dot = C.w_dot[0], C.w_dot[1], C.w_dot[2]
     return C.v_dot[part] + cross(w_dot, row(C.rho, i))[part] + cross(w, row(C.rho_dot, i))[part]
 
 
-@compiled
 def time_scale(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
     """dt/dtau: the product of |u|/(|u| + SLOW) over the contacts that may come to stick. For a patch that also spins,
     |u|^2 is replaced by |u|^2 + (radius w_z)^2."""
@@ -292,7 +279,6 @@ def time_scale(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
     return g
 
 
-@compiled
 def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
     """Writes dy/dtau into out; returns what forces() returns."""
     e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
@@ -320,7 +306,6 @@ def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, ou
     return minor
 
 
-@compiled
 def kinetic(y: Array, L3: float, P: Record) -> float:
     """L^2/(2 I1) + k (L . e)^2/2 + v^2/2"""
     L_squared = y[at.LX] * y[at.LX] + y[at.LY] * y[at.LY] + y[at.LZ] * y[at.LZ]

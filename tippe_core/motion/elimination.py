@@ -2,11 +2,9 @@
 
 import numpy as np
 
-from ..compiled import compiled
 from ..types import Array, Indices
 
 
-@compiled
 def solve_linear(matrix: Array, right: Array, n: int) -> float:
     """Solves matrix x = right for the first n rows, x into right; returns the determinant."""
     pivots = np.zeros(n, np.int64)
@@ -15,7 +13,6 @@ def solve_linear(matrix: Array, right: Array, n: int) -> float:
     return determinant
 
 
-@compiled
 def decompose(matrix: Array, pivots: Indices, n: int) -> float:
     """Gaussian elimination of the first n rows, in place, with the rows exchanged in pivots; returns the
     determinant."""
@@ -40,7 +37,6 @@ def decompose(matrix: Array, pivots: Indices, n: int) -> float:
     return determinant
 
 
-@compiled
 def substitute(matrix: Array, pivots: Indices, right: Array, n: int) -> None:
     """The solution x of matrix x = right, after decompose(), into right."""
     for j in range(n):

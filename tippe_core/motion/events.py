@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..compiled import compiled, shared_with_kernels
+from ..compiled import compiled
 from ..paper.search import fallen
 from ..types import Array, Number
 from . import at, contacts
@@ -48,7 +48,6 @@ def noted_values(up: Number, up_rate: Number) -> tuple[Number, ...]:
     return (up,)
 
 
-@compiled
 def first_event(W: Record, P: Record, slowest: int) -> tuple[Event, float]:
     """The first event within the step at which a guard falls below 0, or NONE, and the fraction of the step."""
     before, event, share = 0.0, (NONE, BALL), 1.0
@@ -69,7 +68,6 @@ def first_event(W: Record, P: Record, slowest: int) -> tuple[Event, float]:
     return event, share
 
 
-@compiled
 def watch(W: Record, P: Record, slowest: int, x: float) -> None:
     """Computes the guards at the fraction x of the step."""
     C = W.contacts
@@ -77,14 +75,12 @@ def watch(W: Record, P: Record, slowest: int, x: float) -> None:
     contacts.guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
 
 
-@shared_with_kernels
 def height_or_guard(x: float, W: Record, P: Record, slowest: int, event: Event, touches: bool) -> float:
     """The guard of the event at the fraction x of the step; for one that touches, the height."""
     watch(W, P, slowest, x)
     return W.contacts.height[event[1]] if touches else W.guards[event[0], event[1]]
 
 
-@compiled
 def crossing(W: Record, P: Record, slowest: int, event: Event, low: float, high: float) -> float:
     """The fraction of the step, between low and high, at which the guard of the event falls below 0."""
     touches = event[0] == TOUCHES and height_or_guard(low, W, P, slowest, event, True) > 0.0
@@ -146,7 +142,6 @@ def noted(W: Record, log: Array, name: int, t: float) -> None:
         enter(W, log, t, name, carried(W.modes[BALL], W.modes[STEM]))
 
 
-@compiled
 def enter(W: Record, log: Array, t: float, name: int, supports: int) -> None:
     """Adds an entry to the log."""
     entry = log[W.logged]
@@ -165,7 +160,6 @@ def first(log: Any, name: int) -> float:
     return float(next(iter(log["t"][log["name"] == name]), np.nan))
 
 
-@compiled
 def touched(W: Record, log: Array) -> None:
     """Notes that the stem touches now, if it is the first time."""
     if not W.summary.touched:

@@ -241,7 +241,6 @@ def sticks(law: Law, omega_n: float) -> bool:
     return k > STEEP or (k == 0.0 and limit > 0.0)
 
 
-@compiled
 def contensou(mu: float, radius: float, square: float, omega_n: float) -> tuple[float, float]:
     """(k, t) of Contensou's law for radius omega_n other than 0. With q = |u|/(radius |omega_n|),
 
@@ -272,7 +271,6 @@ def contensou(mu: float, radius: float, square: float, omega_n: float) -> tuple[
     return k, (t if omega_n > 0 else -t)
 
 
-@compiled
 def hypergeometric(a: float, c: float, x: float) -> float:
     """2F1(a, 1/2; c; x) for 0 <= x <= 1/SERIES: the sum of (a)_n (1/2)_n/(c)_n x^n/n!, whose terms fall as x^n."""
     term = total = 1.0

@@ -12,7 +12,6 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..compiled import compiled, shared_with_kernels
 from ..paper.search import zero
 from ..types import Array
 from . import at
@@ -29,7 +28,6 @@ REST = 1e-11  # ((gR)^1/2): slip below which a contact may stick
 Slip: TypeAlias = tuple[float, float, float, float]  # u, w_z
 
 
-@compiled
 def impact(W: Array, start: Array, law: Record, I: Record) -> Array:
     """The impulse and the angular impulse about z, (4,), for (u, w_z) = start + W impulse, W (4, 4), start (4,). I is
     working space."""
@@ -54,7 +52,6 @@ def impact(W: Array, start: Array, law: Record, I: Record) -> Array:
     return I.J.copy()
 
 
-@compiled
 def after(I: Record, J: Array) -> Slip:
     """(u, w_z) = start + W J, (4,)."""
     W, start = I.W, I.start
@@ -66,13 +63,11 @@ def after(I: Record, J: Array) -> Slip:
     )
 
 
-@compiled
 def spread(q: Slip, law: Record) -> float:
     """The slip speed of the contact, including that of the spin of its patch."""
     return np.sqrt(q[0] * q[0] + q[1] * q[1] + (law.radius * q[3]) ** 2)
 
 
-@compiled
 def held(W: Array, q: Slip, law: Record) -> Array:
     """The impulse that brings (u, w_z) = q to rest; w_z only if the law has a torque."""
     matrix, J = W.copy(), np.array([-q[0], -q[1], -q[2], -q[3]])
@@ -82,7 +77,6 @@ def held(W: Array, q: Slip, law: Record) -> Array:
     return J
 
 
-@compiled
 def away(W: Array, q: Slip, rest: Array, scale: float) -> Array:
     """The impulse with which it goes on slipping: slowly, opposite to the one that would have held it."""
     size, matrix, J = np.hypot(rest[0], rest[1]), W.copy(), np.zeros(4)
@@ -91,7 +85,6 @@ def away(W: Array, q: Slip, rest: Array, scale: float) -> Array:
     return J
 
 
-@compiled
 def grow_impulse(I: Record, law: Record, h: float) -> float:
     """Writes the impulse after a step of length h from I.J into I.new; returns the ratio of its error to the allowed
     one."""
@@ -104,14 +97,12 @@ def grow_impulse(I: Record, law: Record, h: float) -> float:
     return error(I.K, I.allowed, h)
 
 
-@shared_with_kernels
 def rising(h: float, I: Record, law: Record) -> float:
     """u_z after a step of length h."""
     grow_impulse(I, law, h)
     return after(I, I.new)[2]
 
 
-@compiled
 def grow(I: Record, law: Record, J: Array, out: Array) -> None:
     """Writes d(impulse)/dP into out, times |u|/(|u| + SLOW) if the slip may stop, as in dynamics.py."""
     q = after(I, J)
@@ -126,7 +117,6 @@ def grow(I: Record, law: Record, J: Array, out: Array) -> None:
 # ---- the effect of an impulse at a contact, and the final halt of a slip ----
 
 
-@compiled
 def mobility(i: int, j: int, y: Array, P: Record, C: Record) -> Array:
     """(4, 4): the change of (u_i, w_z) per unit of impulse, and of angular impulse about z, at contact j."""
     e, W, zero = turning(y, P)[0], np.zeros((4, 4)), (0.0, 0.0, 0.0)
@@ -139,7 +129,6 @@ def mobility(i: int, j: int, y: Array, P: Record, C: Record) -> Array:
     return W
 
 
-@compiled
 def give_impulse(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
     """y after the impulse and angular impulse J (4,) at contact i; the energy lost is added to the heat."""
     before, impulse = kinetic(y, turning(y, P)[2], P), (J[0], J[1], J[2])
@@ -149,14 +138,12 @@ def give_impulse(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
     y[at.HEAT] += before - kinetic(y, turning(y, P)[2], P)
 
 
-@compiled
 def moving(y: Array, i: int, P: Record, C: Record) -> Array:
     """(u, w_z) of contact i; the positions of the contacts go into C."""
     _, w, _ = arrange(y, NO_ONE, OPEN, OPEN, P, C)
     return np.array([C.u[i, 0], C.u[i, 1], C.u[i, 2], w[2]])
 
 
-@compiled
 def rests(y: Array, i: int, P: Record, C: Record) -> bool:
     """Whether contact i may stick."""
     if P.law.mu_s == 0.0:
@@ -165,7 +152,6 @@ def rests(y: Array, i: int, P: Record, C: Record) -> bool:
     return np.sqrt(q[0] ** 2 + q[1] ** 2 + (P.law.radius * q[3]) ** 2) < REST
 
 
-@compiled
 def halted(y: Array, i: int, P: Record, C: Record) -> None:
     """y with the rest of the slip of contact i removed."""
     q = moving(y, i, P, C)

@@ -12,7 +12,6 @@ Rodas5P of G. Steinebach, BIT Numer. Math. 63, 27 (2023), whose coefficients the
 
 import numpy as np
 
-from ..compiled import compiled
 from ..types import Array
 from . import at
 from .contacts import margin
@@ -63,7 +62,6 @@ DIFFERENCE = 1e-8  # ((gR)^1/4): times the root of the slip, the change of v for
 TOLERANCE = 5e-9  # the least tolerance of an implicit step
 
 
-@compiled
 def slowness(w_z: float, ball: int, stem: int, P: Record, C: Record) -> tuple[float, float]:
     """The least slip speed, including that of the spin, of the contacts that slip, and the largest k N, after
     forces()."""
@@ -77,7 +75,6 @@ def slowness(w_z: float, ball: int, stem: int, P: Record, C: Record) -> tuple[fl
     return least, k_N
 
 
-@compiled
 def is_stiff(W: Record, P: Record, h: float) -> bool:
     """Whether stability would limit the steps of stepper.py, after a step of length h to step.new, whose slip it keeps
     in W.slip."""
@@ -91,7 +88,6 @@ def is_stiff(W: Record, P: Record, h: float) -> bool:
     )
 
 
-@compiled
 def rates_in_time(z: Array, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
     """rates(), as dz/dt."""
     minor = rates(z, NO_ONE, ball, stem, P, C, out)
@@ -101,7 +97,6 @@ def rates_in_time(z: Array, ball: int, stem: int, P: Record, C: Record, out: Arr
     return minor
 
 
-@compiled
 def differentiate(W: Record, P: Record) -> None:
     """Writes dz/dtau at step.z into step.K[0], and J, column by column, into step.J."""
     S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
@@ -119,7 +114,6 @@ def differentiate(W: Record, P: Record) -> None:
         S.at[i] = S.z[i]
 
 
-@compiled
 def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
     """Computes a step of length h from step.z, after differentiate(), and its end into step.new: its error relative to
     the allowed one, and the least margin()."""
@@ -156,7 +150,6 @@ def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
     return np.sqrt(square / 16), min(near, margin(S.new, minor, ball, stem, P, C))
 
 
-@compiled
 def polynomial(S: Record) -> None:
     """The polynomial through the last step, in the form of stepper.py."""
     F = S.polynomial

@@ -56,7 +56,6 @@ def nutate(W: Record, P: Record, log: Array, none: Array, rows: Array, end: floa
     return follow(W, P, log, none, rows, end, limit)
 
 
-@compiled
 def turns(W: Record, P: Record, out: Array) -> None:
     """Writes (t, phi, psi, x, y, theta) at a maximum or minimum of theta in the last step into out."""
     S, angles = W.step, W.angles.copy()
@@ -68,7 +67,6 @@ def turns(W: Record, P: Record, out: Array) -> None:
     out[5] = tilt_of(S.at)
 
 
-@compiled
 def skip(y: Array, angles: Array, first: Array, second: Array, end: float) -> bool:
     """Advances y by as many whole nutations, like that from first to second, as fit before end; returns whether any do.
 

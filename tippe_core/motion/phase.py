@@ -64,7 +64,6 @@ def v_and_m(cos_half: Number, sin_half: Number, ends: Ends) -> tuple[Number, Num
     return ends.v1 + ends.width * (sin_half * sin_half), ends.m2 + ends.width * (cos_half * cos_half)
 
 
-@compiled
 def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
     """cos and sin of kappa/2 = (pi half + rest + series)/2."""
     s = sine((rest + series) / 2)
@@ -83,7 +82,6 @@ def tilts(passed: Array, period: float, half: float, rest: float, kappa: Array, 
     return s, c
 
 
-@compiled
 def tilt(half: Array, rest: Array, kappa: Array, ends: Ends, s: Array, c: Array) -> None:
     """Writes sin(theta) and cos(theta) into s and c at the phases pi half + rest; kappa: kappa minus the phase. (n,)
     each."""
@@ -94,26 +92,22 @@ def tilt(half: Array, rest: Array, kappa: Array, ends: Ends, s: Array, c: Array)
         s[i], c[i] = np.sqrt(v * m), (m - v) / 2
 
 
-@compiled
 def cis(angle: float) -> complex:
     """exp(i angle)"""
     return complex(np.cos(angle), np.sin(angle))
 
 
-@compiled
 def nearer_pole(v: float, m: float, ends: Ends) -> tuple[float, float, float]:
     """cos(theta) of the nearer pole, the distance of c from it, and its offset."""
     return (1.0, v, ends.upright) if v <= m else (-1.0, m, ends.inverted)
 
 
-@compiled
 def pole_factor(cos_half: float, sin_half: float, x1: float, x2: float, offset: float) -> complex:
     """x1^1/2 cos(kappa/2) +- i x2^1/2 sin(kappa/2), with x = v at theta = 0 and x = m at pi, and the sign of the
     offset."""
     return complex(np.sqrt(x1) * cos_half, np.copysign(np.sqrt(x2), offset) * sin_half)
 
 
-@compiled
 def pole_angle(factor: complex, offset: float, at_pole: float, turns: float) -> float:
     """The argument of the factor after that many periods; if the factor is 0, at the pole itself, that just after."""
     angle = np.copysign(at_pole, offset) if factor == 0 else np.arctan2(factor.imag, factor.real)
@@ -176,7 +170,6 @@ def theta_dot(cos_half: float, sin_half: float, v: float, m: float, dt_dkappa: f
     return width * sin_half * cos_half / (dt_dkappa * np.sqrt(v * m))
 
 
-@compiled
 def half_sigma_rate(x: float, x1: float, x2: float, offset: float, dt_dkappa: float, slope: float) -> float:
     """d sigma/dkappa: half of dt/dkappa (offset/x + slope), minus the abrupt change at the pole, +- (x1 x2)^1/2/(2x).
 

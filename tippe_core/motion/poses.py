@@ -13,7 +13,6 @@ AIR, SLIPPING, ROLLING = range(3)
 REGIMES = np.array(["air", "slip", "roll"])
 
 
-@compiled
 def continue_angles(y: Array, angles: Array) -> None:
     """(phi + psi - chi)/2 and (phi - psi + chi)/2 at y, continued from angles, half turns included.
 
@@ -26,13 +25,11 @@ def continue_angles(y: Array, angles: Array) -> None:
             angles[n] += by - 2 * np.pi * np.round(by / (2 * np.pi))
 
 
-@compiled
 def tilt_of(y: Array) -> float:
     """theta"""
     return 2 * np.arctan2(np.hypot(y[at.PX], y[at.PY]), np.hypot(y[at.PZ], y[at.PW]))
 
 
-@compiled
 def record(
     y: Array, t: float, turning: Turning, angles: Array, ball: int, stem: int, P: Record, C: Record, out: Record
 ) -> None:

@@ -97,7 +97,7 @@ class Rolling(Nutation):
     """
 
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
-        self.top = top
+        self.top = single("top", top, Top)
         with localcontext(EXACT):
             if isinstance(start, State):
                 single("state", start, State)
@@ -223,14 +223,12 @@ def rolling_dt_dkappa(v: Array, m: Array, curve: Floats, e: float, ends: Ends) -
     return found
 
 
-@compiled
 def place_at(v: float, m: float, curve: Floats) -> Place:
     """The Place in the form that differences.py uses."""
     c, s2 = 1 - v, v * m
     return Place(c, s2, np.sqrt(eq.f3_2(c, s2, curve.top)), bracket_at(v, m, curve)[0])
 
 
-@compiled
 def bracket_at(v: float, m: float, curve: Floats) -> tuple[float, float]:
     """B of (36), which is s w2, without cancellation near the poles; and w3."""
     return bracket_near(1.0, v, curve) if v <= m else bracket_near(-1.0, m, curve)

@@ -77,13 +77,11 @@ def follow(W: Record, P: Record, log: Array, times: Array, rows: Array, end: flo
     return OVER, BALL
 
 
-@compiled
 def sampled(W: Record, times: Array) -> bool:
     """Whether there are times, with a sample at each."""
     return 0 < len(times) == W.samples
 
 
-@compiled
 def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: float) -> Event:
     """Takes one step, or the part of it before an event, and samples it; returns the event, NONE, or OVER within the
     step once there is a sample at each of the times, so that the next call with later times goes on in it."""
@@ -100,7 +98,6 @@ def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: fl
     return end_step(W, P)
 
 
-@compiled
 def begin_step(W: Record, P: Record, log: Array, times: Array, end: float) -> None:
     """Finds a step, at most up to the time `end`, and the part of it before an event, without changing y."""
     y, S, C = W.y, W.step, W.contacts
@@ -127,7 +124,6 @@ def begin_step(W: Record, P: Record, log: Array, times: Array, end: float) -> No
     watch_tilt(W, P, log, slowest, S.h, share, dense)
 
 
-@compiled
 def end_step(W: Record, P: Record) -> Event:
     """Moves y to the end of the step, or of its part before an event; returns the event or NONE."""
     S, event = W.step, (W.step.event[0], W.step.event[1])
@@ -141,7 +137,6 @@ def end_step(W: Record, P: Record) -> Event:
     return event
 
 
-@compiled
 def change_variables(W: Record, P: Record) -> int:
     """Writes y into step.z, with log|u| and beta of the slowest contact in place of v for Coulomb's law. Returns that
     contact.
@@ -173,7 +168,6 @@ def change_variables(W: Record, P: Record) -> int:
     return slowest
 
 
-@compiled
 def scales(W: Record, P: Record, slowest: int) -> None:
     """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy. An implicit
     step must not change the direction of a slip that is smaller than its tolerance."""
@@ -192,7 +186,6 @@ def scales(W: Record, P: Record, slowest: int) -> None:
         S.scale[at.LOG_U] = S.scale[at.BETA] = of_slip
 
 
-@compiled
 def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, float]:
     """Finds a step from step.z to step.new within the tolerance, at most `most` long: its length, and the least
     margin()."""
@@ -218,7 +211,6 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
     return h, near
 
 
-@compiled
 def try_step(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]:
     """Computes the stages of a step of length h, and its end into step.new: its error, and the least margin()."""
     S, C, ball, stem, near = W.step, W.contacts, W.modes[BALL], W.modes[STEM], np.inf
@@ -236,7 +228,6 @@ def try_step(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float
     return stepper.error(S.K, S.scale, h), near
 
 
-@compiled
 def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     """Sets y from step.at at the time t, with continuous angles and p normalized; returns the earlier slip speed of the
     slowest contact."""
@@ -261,7 +252,6 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     return before
 
 
-@compiled
 def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
     """(HALTS, i) if friction stops the slowest contact i, (SLIPS, i) if its slip goes through 0, or NONE."""
     y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
@@ -291,7 +281,6 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
     return NONE, BALL
 
 
-@compiled
 def sample(W: Record, P: Record, z: Array, slowest: int, t: float, rows: Array) -> None:
     """Adds a row for z."""
     C, k = W.contacts, W.samples

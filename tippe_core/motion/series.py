@@ -17,7 +17,6 @@ BLOCK = 256  # instants whose sums fit into the processor's cache
 # ---- coefficients ----
 
 
-@compiled
 def transform(angle: Array, even: Array, odd: Array, count: int) -> Array:
     """(r, count): sum_j [even_j cos(k angle_j) + odd_j sin(k angle_j)] for k = 0 to count - 1.
 
@@ -165,7 +164,6 @@ def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
     return found
 
 
-@compiled
 def cos_and_sin(half: Array, rest: Array) -> tuple[Array, Array]:
     """cos and sin of pi half + rest, (n,) each, with |rest| at most pi/2."""
     cos, sin = np.empty(len(rest)), np.empty(len(rest))
@@ -175,21 +173,18 @@ def cos_and_sin(half: Array, rest: Array) -> tuple[Array, Array]:
     return cos, sin
 
 
-@compiled
 def add_wave(total: Array, b: float, wave: Array) -> None:
     """total += b wave"""
     for j in range(len(total)):
         total[j] += b * wave[j]
 
 
-@compiled
 def next_harmonic(cos: Array, sin: Array, step_cos: Array, step_sin: Array) -> None:
     """Replaces cos and sin (n,) of k tau by those of (k + 1) tau, from step_cos and step_sin of tau."""
     for j in range(len(cos)):
         cos[j], sin[j] = cos[j] * step_cos[j] - sin[j] * step_sin[j], sin[j] * step_cos[j] + cos[j] * step_sin[j]
 
 
-@compiled
 def part_turn(turns: float, rate: float) -> float:
     """The fractional part of turns * rate, to the precision of rate: the product with its leading 24 bits is exact."""
     leading = np.float64(np.float32(rate))

@@ -46,7 +46,6 @@ def energy_above_rest(top: Number, edge: Rim, y: Array, L3: float) -> float:
     return kinetic(y, L3, top) + y[at.Z] - (top.a + edge[1] + edge[2])
 
 
-@compiled
 def leaning(e: Vector, w: Vector) -> tuple[float, float]:
     """sin(theta) and its rate."""
     s = np.sqrt(e[0] * e[0] + e[1] * e[1])
@@ -54,7 +53,6 @@ def leaning(e: Vector, w: Vector) -> tuple[float, float]:
     return s, (rate / s if s > 0.0 else 0.0)
 
 
-@compiled
 def lies(top: Number, edge: Rim, e: Vector, w: Vector) -> bool:
     """Whether e' is too slow to tilt it beyond FLAT: 1/2 (I1 + H^2 + b^2) e'^2 < b FLAT, pivoting on the rim."""
     b, h, _ = edge
@@ -68,7 +66,6 @@ def crossed(y: Array, e: Vector) -> Array:
     return rotated(y, -e[1], e[0], -e[2])  # rotated by 2 alpha about z cross e
 
 
-@compiled
 def leaned(y: Array, e: Vector, w: Vector) -> Array:
     """For a start flat on the end: y with a minimal lean in the direction of its tilting, or of its sliding. Any other
     y is returned as it is."""
@@ -84,7 +81,6 @@ def leaned(y: Array, e: Vector, w: Vector) -> Array:
     return rotated(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
 
 
-@compiled
 def rotated(y: Array, i: float, j: float, w: float) -> Array:
     """y rotated by the quaternion (i, j, 0, w)."""
     px, py, pz, pw = y[at.PX], y[at.PY], y[at.PZ], y[at.PW]

@@ -7,7 +7,6 @@ It solves dz/dtau = rates(z) of dynamics.py; impact.py uses the same coefficient
 import numpy as np
 from scipy.integrate import DOP853
 
-from ..compiled import compiled, shared_with_kernels
 from ..paper.search import zero
 from ..types import Array
 from . import at
@@ -20,7 +19,6 @@ STAGES, ORDER = 12, 8
 SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.9, 0.2, 10.0
 
 
-@compiled
 def stage(z: Array, K: Array, weights: Array, count: int, h: float, out: Array) -> None:
     """Writes z + h sum_j weights_j K_j into out."""
     n = len(z)
@@ -35,7 +33,6 @@ def stage(z: Array, K: Array, weights: Array, count: int, h: float, out: Array) 
         out[i] = z[i] + h * out[i]
 
 
-@compiled
 def error(K: Array, scale: Array, h: float) -> float:
     """The estimated error of a step relative to the scales: |h| e5^2/(e5^2 + e3^2/100)^1/2, e5 and e3 root mean
     squares."""
@@ -52,7 +49,6 @@ def error(K: Array, scale: Array, h: float) -> float:
     return abs(h) * fifth / np.sqrt((fifth + 0.01 * third) * n)
 
 
-@compiled
 def factor(found: float, order: int) -> float:
     """The factor by which to change h after a step with this ratio of its error, of this order, to the allowed one."""
     if not np.isfinite(found):
@@ -60,7 +56,6 @@ def factor(found: float, order: int) -> float:
     return min(MOST_FACTOR, max(LEAST_FACTOR, SAFETY * max(found, 1e-12) ** (-1 / order)))
 
 
-@compiled
 def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, float]:
     """The steady beta near that of step.at, at which u' is parallel to u; the rates at which beta relaxes to it and at
     which log|u| grows."""
@@ -81,7 +76,6 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
     return beta, attracts, out[at.LOG_U]
 
 
-@compiled
 def steady_rates(W: Record, P: Record, slowest: int, s: int) -> float:
     """Writes the rates at step.at into step.K[s], where beta is kept steady: those at its steady value."""
     S = W.step
@@ -91,7 +85,6 @@ def steady_rates(W: Record, P: Record, slowest: int, s: int) -> float:
     return minor
 
 
-@compiled
 def densely(W: Record, P: Record, slowest: int, h: float) -> None:
     """Computes the polynomial (dense output) of the step from step.z to step.new, whose stages are in step.K.
     That of an implicit step is there already."""
@@ -114,7 +107,6 @@ def densely(W: Record, P: Record, slowest: int, h: float) -> None:
             F[3 + m, i] = h * total
 
 
-@compiled
 def within(S: Record, x: float, i: int) -> float:
     """Component i of the polynomial at the fraction x of the step."""
     total = 0.0
@@ -123,14 +115,12 @@ def within(S: Record, x: float, i: int) -> float:
     return S.z[i] + total
 
 
-@compiled
 def at_share(S: Record, x: float, out: Array) -> None:
     """Writes the polynomial at the fraction x of the step into out."""
     for i in range(16):
         out[i] = within(S, x, i)
 
 
-@compiled
 def at_end(S: Record, share: float) -> None:
     """Writes the end of the step, or of its part up to the fraction share, into step.at."""
     if share == 1.0:
@@ -139,13 +129,11 @@ def at_end(S: Record, share: float) -> None:
         at_share(S, share, S.at)
 
 
-@shared_with_kernels
 def lateness(x: float, S: Record, t: float) -> float:
     """How long after t the time at the fraction x of the step is."""
     return within(S, x, at.TIME) - t
 
 
-@compiled
 def when(S: Record, t: float) -> float:
     """The fraction of the step at which the time is t."""
     return zero(lateness, 0.0, 1.0, (S, t))

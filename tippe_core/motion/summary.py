@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..compiled import compiled, shared_with_kernels
+from ..compiled import compiled
 from ..paper.search import zero
 from ..types import Array
 from . import at
@@ -29,7 +29,6 @@ def begin(W: Record, P: Record, log: Array, since: float) -> None:
         touched(W, log)
 
 
-@compiled
 def summarize(W: Record, P: Record, N: float) -> None:
     """Updates the summary at the end of a step, with the normal force N there."""
     T, y, (_, _, L3) = W.summary, W.y, turning(W.y, P)
@@ -44,7 +43,6 @@ def summarize(W: Record, P: Record, N: float) -> None:
             T.slips = 1
 
 
-@compiled
 def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: float, dense: bool) -> None:
     """Notes what is noted in the step of length h from step.z, up to the fraction share, from the polynomial of the
     step, and once that counts the range of theta. dense: whether the polynomial is computed already."""
@@ -77,34 +75,29 @@ def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: 
     at_end(S, share)
 
 
-@compiled
 def up(y: Array) -> float:
     """e_z = cos(theta), up to the norm of p."""
     return y[at.PZ] * y[at.PZ] + y[at.PW] * y[at.PW] - y[at.PX] * y[at.PX] - y[at.PY] * y[at.PY]
 
 
-@compiled
 def up_rate(y: Array, P: Record) -> float:
     """e_z' = (w x e)_z"""
     e, w, _ = turning(y, P)
     return w[0] * e[1] - w[1] * e[0]
 
 
-@compiled
 def widen(T: Record, y: Array) -> None:
     """Extends the range of tilts by that of y."""
     theta = tilt_of(y)
     T.least, T.most = min(T.least, theta), max(T.most, theta)
 
 
-@shared_with_kernels
 def noted_at(x: float, S: Record, P: Record, n: int) -> float:
     """Value n of noted_values() at the fraction x of the step."""
     at_share(S, x, S.at)
     return noted_values(up(S.at), up_rate(S.at, P))[n]
 
 
-@shared_with_kernels
 def up_rate_at(x: float, S: Record, P: Record) -> float:
     """up_rate() at the fraction x of the step."""
     at_share(S, x, S.at)

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, common_shape, finite, has_arrays, numbers, set_arrays, single
+from ..errors import Compared, TopError, common_shape, finite, has_arrays, numbers, set_arrays, single
 from ..types import Array, Scalars
 from . import equations as eq
 from .equations import AnyTop
@@ -31,7 +31,7 @@ def _exact(top: TopNumbers) -> TopNumbers:
 
 
 @dataclass(frozen=True, eq=False)
-class Constants:
+class Constants(Compared):
     """The constants of a rolling motion: K_J (30), K_R (31) and the energy E (6).
 
     Parameters
@@ -62,14 +62,6 @@ class Constants:
             object.__setattr__(self, field.name, value)
         common_shape("constants", "shapes of K_J, K_R and E that broadcast together", self.K_J, self.K_R, self.E)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Constants):
-            return NotImplemented
-        return all(np.array_equal(getattr(self, n), getattr(other, n)) for n in ("K_J", "K_R", "E"))
-
-    def __hash__(self) -> int:
-        return hash(tuple(np.asarray(getattr(self, n)).tobytes() for n in ("K_J", "K_R", "E")))
-
     def two_E_prime(self, top: Top) -> Scalars:
         """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33), in MgR. Correctly rounded for scalars."""
         if any(np.ndim(x) for x in (self.K_J, self.K_R, self.E)):
@@ -88,8 +80,8 @@ class Constants:
         return cls(float(exact.K_J), float(exact.K_R), float(E))
 
 
-@dataclass(frozen=True)
-class State:
+@dataclass(frozen=True, eq=False)
+class State(Compared):
     """The state of a motion at one instant, in units of R, M and g.
 
     Where many motions are meant (slide_many), the fields may be arrays that broadcast; they are then checked where they

@@ -5,7 +5,7 @@ from typing import overload
 
 import numpy as np
 
-from ..compiled import compiled, shared_with_kernels
+from ..compiled import compiled
 from ..types import Array, Indices, Scalars
 from . import equations as eq
 from .constants import EXACT, Constants, Exact, exact_versine, versines
@@ -246,7 +246,6 @@ def theta_dot_2_on(
     return cancelled[:count]
 
 
-@shared_with_kernels
 def at(x: Array, i: int, j: int) -> float:
     """x[i, j], broadcasting an axis of length 1."""
     return x[i if x.shape[0] > 1 else 0, j if x.shape[1] > 1 else 0]

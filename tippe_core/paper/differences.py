@@ -11,7 +11,6 @@ follows from the product rules (g h)_12 = g1 h_12 + g_12 h2 and (g h)_12c = g1 h
 
 from typing import NamedTuple
 
-from ..compiled import shared_with_kernels
 from ..types import Number
 from . import equations as eq
 from .equations import AnyTop
@@ -34,7 +33,6 @@ class Differences(NamedTuple):
     over_12c: Number
 
 
-@shared_with_kernels
 def of_f3(one: Place, two: Place, here: Place, top: AnyTop) -> Differences:
     """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2: its differences divided by sums of f3, from f3^2 = f3 f3"""
     ratio = top.I3 / top.I1
@@ -43,7 +41,6 @@ def of_f3(one: Place, two: Place, here: Place, top: AnyTop) -> Differences:
     return Differences(y_12, y_2c, (ratio - 1 - y_12 * y_2c) / (one.f3 + here.f3))
 
 
-@shared_with_kernels
 def of_bracket(one: Place, two: Place, here: Place, K_R: Number, top: AnyTop) -> Differences:
     """(36)  B = K_J - (I3/I1)(c - a) K_R/f3, from the differences of f3 and of r = 1/f3"""
     y = of_f3(one, two, here, top)
@@ -54,7 +51,6 @@ def of_bracket(one: Place, two: Place, here: Place, K_R: Number, top: AnyTop) ->
                        k * ((one.c - top.a) * r_12c + r_2c))  # fmt: skip
 
 
-@shared_with_kernels
 def Q(one: Place, two: Place, here: Place, K_R: Number, e: Number, top: AnyTop) -> Number:
     """(36)  s^2 theta_dot^2 = (c1 - c)(c - c2) Q, with the turning points c1 and c2
 

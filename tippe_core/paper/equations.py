@@ -12,7 +12,6 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..compiled import shared_with_kernels
 from ..types import Number, Vector
 from .top import Top, TopNumbers
 
@@ -21,73 +20,61 @@ AnyTop: TypeAlias = Top | TopNumbers  # a Top in Python; kernels take its number
 # ---- the constants of the motion ----
 
 
-@shared_with_kernels
 def energy(w1: Number, w2: Number, w3: Number, velocity_2: Number, v: Number, top: AnyTop) -> Number:
     """(6)  E = (1/2) omega . L + (1/2) M v . v + M g z,  with v . v the square of G's velocity, z = a(1 - c)"""
     return (top.I1 * (w1 * w1 + w2 * w2) + top.I3 * w3 * w3 + velocity_2) / 2 + top.a * v
 
 
-@shared_with_kernels
 def C_J(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
     """(14)  C_J = L . r = I1 s w2 + I3 (c - a) w3,  which by (30) is I1 K_J"""
     return top.I1 * K_J(c, s, w2, w3, top)
 
 
-@shared_with_kernels
 def K_J(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
     """(30)  K_J = s w2 + (I3/I1)(c - a) w3"""
     return s * w2 + K_J_of_spin(c, w3, top)
 
 
-@shared_with_kernels
 def K_J_of_spin(c: Number, w3: Number, top: AnyTop) -> Number:
     """(30)  (I3/I1)(c - a) w3, the part of K_J due to the spin: all of it if w2 = 0 or at a pole"""
     return top.I3 / top.I1 * (c - top.a) * w3
 
 
-@shared_with_kernels
 def K_R(c: Number, s2: Number, w3: Number, top: AnyTop) -> Number:
     """(31)  K_R = f3 w3"""
     return np.sqrt(f3_2(c, s2, top)) * w3
 
 
-@shared_with_kernels
 def omega3(c: Number, s2: Number, K_R: Number, top: AnyTop) -> Number:
     """(31)  w3 = K_R/f3"""
     return K_R / np.sqrt(f3_2(c, s2, top))
 
 
-@shared_with_kernels
 def f3_2(c: Number, s2: Number, top: AnyTop) -> Number:
     """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2"""
     return top.I3 + s2 + top.I3 / top.I1 * (c - top.a) ** 2
 
 
-@shared_with_kernels
 def two_E_prime(E: Number, K_J: Number, K_R: Number, top: AnyTop) -> Number:
     """(33)  2E' = 2E - K_R^2 + (I1/I3) K_J^2"""
     return 2 * E - K_R * K_R + top.I1 / top.I3 * K_J * K_J
 
 
-@shared_with_kernels
 def E_of(e: Number, K_J: Number, K_R: Number, top: AnyTop) -> Number:
     """(33)  E from 2E' = e"""
     return (e - two_E_prime(0, K_J, K_R, top)) / 2
 
 
-@shared_with_kernels
 def two_E_prime_of_motion(w1_2: Number, U: Number, c: Number, top: AnyTop) -> Number:
     """(33)  2E' = 2a(1 - c) + f2^2 w2^2 + f1^2 w1^2 = U + f1^2 w1^2"""
     return U + f1_2(c, top) * w1_2
 
 
-@shared_with_kernels
 def f2_2(c: Number, s2: Number, top: AnyTop) -> Number:
     """(34)  f2^2 = I1 + (I1/I3) s^2 + (c - a)^2"""
     return top.I1 + top.I1 / top.I3 * s2 + (c - top.a) ** 2
 
 
-@shared_with_kernels
 def f1_2(c: Number, top: AnyTop) -> Number:
     """(35)  f1^2 = I1 + 1 + a^2 - 2 a c"""
     return top.I1 + 1 + top.a * top.a - 2 * top.a * c
@@ -96,31 +83,26 @@ def f1_2(c: Number, top: AnyTop) -> Number:
 # ---- theta alone ----
 
 
-@shared_with_kernels
 def bracket(c: Number, K_J: Number, w3: Number, top: AnyTop) -> Number:
     """(36)  B = K_J - (I3/I1)(c - a) K_R/f3,  with K_R/f3 = w3; by (30) it is s w2"""
     return K_J - K_J_of_spin(c, w3, top)
 
 
-@shared_with_kernels
 def U(v: Number, c: Number, s2: Number, w2_2: Number, top: AnyTop) -> Number:
     """(33)  U = 2a(1 - c) + f2^2 w2^2,  2E' at theta_dot = 0: the effective potential of theta, with w2^2 = B^2/s^2"""
     return 2 * top.a * v + f2_2(c, s2, top) * w2_2
 
 
-@shared_with_kernels
 def theta_dot_2(e: Number, U: Number, c: Number, top: AnyTop) -> Number:
     """(36)  f1^2 theta_dot^2 = 2E' - 2a(1 - c) - (f2^2/s^2) [K_J - (I3/I1)(c - a) K_R/f3]^2 = e - U"""
     return (e - U) / f1_2(c, top)
 
 
-@shared_with_kernels
 def bracket_slope(c: Number, s2: Number, w3: Number, top: AnyTop) -> Number:
     """from (36)  dB/dc = -(I3/I1) K_R (I3 + 1 - a c)/f3^3,  with K_R/f3 = w3"""
     return -top.I3 / top.I1 * w3 * (top.I3 + 1 - top.a * c) / f3_2(c, s2, top)
 
 
-@shared_with_kernels
 def s4_U_slope(c: Number, s2: Number, B: Number, dB: Number, top: AnyTop) -> Number:
     """from (36)  dU/dc = -2a + d(f2^2/s^2)/dc B^2 + 2 (f2^2/s^2) B dB/dc
 
@@ -134,7 +116,6 @@ def s4_U_slope(c: Number, s2: Number, B: Number, dB: Number, top: AnyTop) -> Num
 # ---- the forces ----
 
 
-@shared_with_kernels
 def force_terms(
     c: Number, s: Number, w2: Number, w3: Number, top: AnyTop
 ) -> tuple[Number, Number, Number, Number, Number]:
@@ -162,7 +143,6 @@ def force_terms(
     return X, Y0, Y1, Z0, Z1
 
 
-@shared_with_kernels
 def force(c: Number, s: Number, w1: Number, w1_2: Number, w2: Number, w3: Number, top: AnyTop) -> Vector:
     """(38), (39), (37)  F_x, F_y, F_z at the contact point without slipping; F_x changes sign with theta_dot"""
     X, Y0, Y1, Z0, Z1 = force_terms(c, s, w2, w3, top)
@@ -172,25 +152,21 @@ def force(c: Number, s: Number, w1: Number, w1_2: Number, w2: Number, w3: Number
 # ---- relations without a number of their own ----
 
 
-@shared_with_kernels
 def rolling_velocity(c: Number, s: Number, w1: Number, w2: Number, w3: Number, top: AnyTop) -> tuple[Number, Number]:
     """(4)  v = omega x r, the velocity of G without slipping; along x and y: w2 (c - a) - w3 s,  -w1 (1 - a c)"""
     return w2 * (c - top.a) - w3 * s, -w1 * (1 - top.a * c)
 
 
-@shared_with_kernels
 def two_E_smooth(s2: Number, w1: Number, w2: Number, v: Number, top: AnyTop) -> Number:
     """(B3)  e = 2E - I3 w3^2 = I1 (w1^2 + w2^2) + a^2 s^2 w1^2 + 2a(1 - c),  if G moves only vertically"""
     return 2 * energy(w1, w2, 0, top.a * top.a * s2 * w1 * w1, v, top)
 
 
-@shared_with_kernels
 def L_z(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
     """(B4)  L_z = I1 s w2 + I3 c w3,  the vertical component of the angular momentum about G"""
     return top.I1 * s * w2 + top.I3 * c * w3
 
 
-@shared_with_kernels
 def I_eff(c: Number, s2: Number, top: AnyTop) -> Number:
     """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  for a rotation about r: K_min = C_J^2/(2 I_eff)"""
     return top.I1 * s2 + top.I3 * (c - top.a) ** 2

@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..compiled import compiled, shared_with_kernels
+from ..compiled import compiled
 from ..types import Array, Indices
 from . import equations as eq
 from .poles import Floats, angle, bracket_near
@@ -29,7 +29,6 @@ MORE = 24  # additional points
 Limit: TypeAlias = tuple[float, float]  # mu, n
 
 
-@shared_with_kernels
 def interval_end(limit: Limit, X: float, Y0: float, Y1: float, Z0: float, Z1: float) -> float:
     """The f up to which mu F_z >= n F_h holds, starting from one at which it does; inf, or less than that one, if it
     always holds."""
@@ -48,7 +47,6 @@ def interval_end(limit: Limit, X: float, Y0: float, Y1: float, Z0: float, Z1: fl
     return (b - r) / P2 if P2 < 0 else np.inf
 
 
-@shared_with_kernels
 def look(x: float, side: float, barrier: float, curve: Floats, limit: Limit) -> tuple[float, float, float]:
     """base (at least the barrier already passed), the margin mu F_z - n F_h there, and the first 2E' that violates the
     limit."""
@@ -66,18 +64,15 @@ def look(x: float, side: float, barrier: float, curve: Floats, limit: Limit) -> 
     return base, margin, first if first >= base else np.inf
 
 
-@shared_with_kernels
 def margin_at(x: float, side: float, barrier: float, curve: Floats, limit: Limit) -> float:
     """s^2 times the margin; the margin itself is infinite at a pole."""
     return x * (2 - x) * look(x, side, barrier, curve, limit)[1]
 
 
-@shared_with_kernels
 def first_at(x: float, side: float, barrier: float, curve: Floats, limit: Limit) -> float:
     return look(x, side, barrier, curve, limit)[2]
 
 
-@shared_with_kernels
 def F_z_at(x: float, side: float, e: float, curve: Floats) -> float:
     """F_z (Mg) at 2E' = e."""
     c, s, (B, w3) = side * (1 - x), np.sqrt(x * (2 - x)), bracket_near(side, x, curve)
@@ -88,7 +83,6 @@ def F_z_at(x: float, side: float, e: float, curve: Floats) -> float:
 # ---- the scan ----
 
 
-@shared_with_kernels
 def point_from_pole(distance: float, toward: float) -> tuple[float, float]:
     """x and side of the point at this distance in theta from the pole cos(theta) = toward."""
     if distance <= np.pi / 2:
@@ -96,13 +90,11 @@ def point_from_pole(distance: float, toward: float) -> tuple[float, float]:
     return 2 * np.cos(distance / 2) ** 2, -toward
 
 
-@shared_with_kernels
 def seen(path: Array, k: int, side: float) -> float:
     """x of a point as seen from that pole."""
     return path[k, X] if path[k, SIDE] == side else 2 - path[k, X]
 
 
-@shared_with_kernels
 def add_point(
     path: Array, k: int, distance: float, x: float, side: float, barrier: float, curve: Floats, limit: Limit
 ) -> None:
@@ -110,7 +102,6 @@ def add_point(
     path[k, BASE], path[k, MARGIN], path[k, FIRST] = look(x, side, barrier, curve, limit)
 
 
-@shared_with_kernels
 def scan(path: Array, toward: float, far: float, points: int, curve: Floats, limit: Limit, best: float) -> int:
     """Fills the path outwards from its first point, in ever smaller steps towards the distance far, until the limit is
     violated at base, or base exceeds best or the least energy found on the path. Returns the number of points."""
@@ -142,7 +133,6 @@ def scan(path: Array, toward: float, far: float, points: int, curve: Floats, lim
     return k
 
 
-@shared_with_kernels
 def broken_between(path: Array, k: int, toward: float, curve: Floats, limit: Limit) -> int:
     """The index of the last point: k, or that of a new one if the margin falls below 0 between the last three."""
     if k < 2 or not 0 <= path[k - 1, MARGIN] < min(path[k - 2, MARGIN], path[k, MARGIN]):
@@ -158,7 +148,6 @@ def broken_between(path: Array, k: int, toward: float, curve: Floats, limit: Lim
     return k
 
 
-@shared_with_kernels
 def corner(path: Array, k: int, curve: Floats, limit: Limit, part: float) -> int:
     """Ends the path with the point at which the limit is first violated at base, and one just before it."""
     if k < 2 or path[k - 1, MARGIN] >= 0:
@@ -176,7 +165,6 @@ def corner(path: Array, k: int, curve: Floats, limit: Limit, part: float) -> int
     return k + 1
 
 
-@shared_with_kernels
 def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float) -> tuple[float, float, float]:
     """(2E', x, side) of the least violating energy on both paths if it is less than best; also between the points."""
     found, x_found, side_found = np.inf, paths[0, 0, X], paths[0, 0, SIDE]
@@ -201,7 +189,6 @@ def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float
     return found, x_found, side_found
 
 
-@shared_with_kernels
 def turning_tilt(path: Array, k: int, curve: Floats, e: float, part: float) -> float:
     """theta of the turning point of a trajectory of energy 2E' = e, on a path of k points."""
     for i in range(1, k):
@@ -214,7 +201,6 @@ def turning_tilt(path: Array, k: int, curve: Floats, e: float, part: float) -> f
     return angle(path[k - 1, X], path[k - 1, SIDE])
 
 
-@shared_with_kernels
 def limit_of(
     paths: Array, x: float, side: float, points: int, curve: Floats, limit: Limit, far: Array, part: float
 ) -> tuple[float, float, float, float, float]:
@@ -250,7 +236,6 @@ def limit_of(
 # ---- the steady precession of least energy ----
 
 
-@shared_with_kernels
 def least_U(V: Array, M: Array, curve: Floats, part: float) -> tuple[float, float, bool]:
     """(x, side) of the minimum of U, found on the grid 1 - c = V, 1 + c = M from theta = 0 to pi, and whether it is
     certain."""

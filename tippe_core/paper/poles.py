@@ -11,7 +11,6 @@ from typing import NamedTuple, overload
 
 import numpy as np
 
-from ..compiled import shared_with_kernels
 from ..errors import finite, numbers
 from ..types import Array, Bools, Number, Scalars
 from . import equations as eq
@@ -20,7 +19,6 @@ from .equations import AnyTop
 from .top import Top, TopNumbers
 
 
-@shared_with_kernels
 def seen_from(side: Number, top: AnyTop) -> TopNumbers:
     """The top as seen from the pole cos(theta) = side: 1 for the upright, -1 for the inverted one."""
     return TopNumbers(side * top.a, top.I1, top.I3)
@@ -35,7 +33,6 @@ class Floats(NamedTuple):
     inverted: float
 
 
-@shared_with_kernels
 def bracket_near(side: Number, x: Number, curve: Floats) -> tuple[Number, Number]:
     """B and w3 where cos(theta) is at the distance x from the pole cos(theta) = side."""
     c, s2 = side * (1 - x), x * (2 - x)
@@ -44,14 +41,12 @@ def bracket_near(side: Number, x: Number, curve: Floats) -> tuple[Number, Number
     return d + x * C, w3
 
 
-@shared_with_kernels
 def angle(x: float, side: float) -> float:
     """theta (rad) where cos(theta) is at the distance x from the pole cos(theta) = side."""
     turned = 2 * np.arctan2(np.sqrt(x), np.sqrt(2 - x))
     return turned if side > 0 else np.pi - turned
 
 
-@shared_with_kernels
 def pole_slope(x: Number, f3: Number, w3: Number, top: AnyTop) -> Number:
     """C in B = d + x C at x = 1 - c, where x C is B on the trajectory through the pole:
 
@@ -68,13 +63,11 @@ def pole_slope(x: Number, f3: Number, w3: Number, top: AnyTop) -> Number:
     return unit * (f3_P if p == 0 else two_signs(x, p, q, f3_P, f3))
 
 
-@shared_with_kernels
 def one_sign(x: Number, p: Number, q: Number, f3_P: Number, f3: Number, top: AnyTop) -> Number:
     """(p f3 - q f3(P))/x, when p f3 and q f3(P) nearly cancel"""
     return (p * p * (2 - x) + top.I3 * (p + q)) / (p * f3 + q * f3_P)
 
 
-@shared_with_kernels
 def two_signs(x: Number, p: Number, q: Number, f3_P: Number, f3: Number) -> Number:
     """(p f3 - q f3(P))/x, when they do not"""
     return (p * f3 - q * f3_P) / x
@@ -114,7 +107,6 @@ def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
     return float(upright), float(inverted)
 
 
-@shared_with_kernels
 def K_J_of_pole(side: Number, K_R: Number, top: AnyTop) -> Number:
     """K_J of the trajectories through the pole cos(theta) = side."""
     return eq.K_J_of_spin(side, eq.omega3(side, 0, K_R, top), top)

@@ -5,12 +5,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..compiled import shared_with_kernels
-
 Arguments: TypeAlias = tuple[Any, ...]  # further arguments of the function, after x
 
 
-@shared_with_kernels
 def zero(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-8) -> float:
     """The zero of function(x, *args) between low and high, as in enclose(). A last linear interpolation squares the
     relative error `part`."""
@@ -18,14 +15,12 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
     return x + y / (y - y_opposite) * (opposite - x) if y != y_opposite else x
 
 
-@shared_with_kernels
 def fallen(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-14) -> float:
     """Where function(x, *args) has just ceased to be positive between low, where it is, and high, as in enclose()."""
     x, y, opposite, _ = enclose(function, low, high, args, part)
     return opposite if y > 0 else x
 
 
-@shared_with_kernels
 def enclose(
     function: Callable[..., float], low: float, high: float, args: Arguments, part: float
 ) -> tuple[float, float, float, float]:
@@ -62,7 +57,6 @@ def enclose(
     return x, y, opposite, y_opposite
 
 
-@shared_with_kernels
 def least(
     function: Callable[..., float], low: float, at: float, high: float, args: Arguments, part: float = 1e-15
 ) -> float:

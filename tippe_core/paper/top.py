@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
-from ..errors import TopError, finite, has_arrays, set_arrays, single
+from ..errors import Compared, TopError, finite, has_arrays, set_arrays, single
 from ..types import Number
 
 
@@ -15,8 +15,8 @@ class TopNumbers(NamedTuple):
     I3: Number
 
 
-@dataclass(frozen=True)
-class Top:
+@dataclass(frozen=True, eq=False)
+class Top(Compared):
     """A symmetric top with a round peg (Gray and Nickel, Sec. II and Fig. 2), in units of R and M.
 
     Where many motions are meant (slide_many, thresholds), the fields may be arrays that broadcast; they are then

@@ -11,7 +11,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from ..compiled import compiled, shared_with_kernels
+from ..compiled import compiled
 from ..errors import NoMotionError, finite
 from ..types import Array
 from . import equations as eq
@@ -99,7 +99,6 @@ class ExactCurve:
 _GRID_V, _GRID_M = versines(np.linspace(0, np.pi, 513))  # 1 - c and 1 + c
 
 
-@shared_with_kernels
 def U_near(x: float, side: float, curve: Floats) -> float:
     """U"""
     c, s2, (B, _) = side * (1 - x), x * (2 - x), bracket_near(side, x, curve)
@@ -107,7 +106,6 @@ def U_near(x: float, side: float, curve: Floats) -> float:
     return eq.U(x if side > 0 else 2 - x, c, s2, w2_2, curve.top)
 
 
-@shared_with_kernels
 def N_near(x: float, side: float, curve: Floats) -> float:
     """s^4 dU/dc"""
     c, s2, (B, w3) = side * (1 - x), x * (2 - x), bracket_near(side, x, curve)
@@ -115,7 +113,6 @@ def N_near(x: float, side: float, curve: Floats) -> float:
     return eq.s4_U_slope(c, s2, B, dB, curve.top)
 
 
-@shared_with_kernels
 def D_near(x: float, side: float, curve: Floats, e: float) -> float:
     """s^2 (e - U); at the pole its limit"""
     s2, (B, _) = x * (2 - x), bracket_near(side, x, curve)
