@@ -64,6 +64,17 @@ def words(text="", style="", **options):
     return pn.pane.HTML(text, stylesheets=[TYPE + style], **({"sizing_mode": "stretch_width", "margin": 0} | options))
 
 
+def column(*parts, **options):
+    """Parts, one below the other."""
+    return pn.Column(*parts, **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def areas(sheet, inside=(), /, **content):
+    """Parts that a style sheet arranges by their names, which are their classes; inside: sheets of each."""
+    parts = [column(*part, css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
+    return column(*parts, stylesheets=[sheet])
+
+
 def alert(text):
     """An error message, plain text."""
     return f'<div class="alert" role="alert">{typeset(text)}</div>' if text else ""
@@ -77,7 +88,7 @@ def tall(*cards):
     """A column of a grid with its own height: its cards are higher than a phone's page, and the next column would hide
     them."""
     styles = {"gap": "24px", "height": "max-content", "max-height": "none"}
-    return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
+    return column(*cards, styles=styles)
 
 
 def progress(percent, says):
@@ -92,21 +103,19 @@ def swatch(colour, text, style="solid"):
 def card(title, *content, height="max-content"):
     """A part of a room, with its title."""
     styles = {"height": height, "box-sizing": "border-box", "overflow": "hidden"}
-    return pn.Column(words(f"<h2>{title}</h2>"), *content, sizing_mode="stretch_width", margin=0, styles=styles)
+    return column(words(f"<h2>{title}</h2>"), *content, styles=styles)
 
 
 def flow(*content, margin=(6, 0)):
     """A row that wraps if there is too little room."""
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
-    return pn.Column(*content, sizing_mode="stretch_width", margin=margin, styles=styles)
+    return column(*content, margin=margin, styles=styles)
 
 
 def grid(*cards, narrowest=480):
     """Cards side by side where there is room."""
-    return pn.Column(
+    return column(
         *cards,
-        sizing_mode="stretch_width",
-        margin=0,
         styles={
             "display": "grid",
             "grid-template-columns": f"repeat(auto-fit, minmax(min(100%, {narrowest}px), 1fr))",
@@ -142,12 +151,9 @@ def staged(stage, others, mirrored=False):
     """The cards of the stage and the other cards: side by side if there is room, the stage then 57 % wide and in sight
     while the others scroll; else in one column, in the `order` of each card, the first one in sight. mirrored: the
     stage is on the right, and in one column after the others."""
-    sides = [
-        pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]),
-        pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
-    ]
+    sides = [column(*stage, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]), column(*others, stylesheets=[SIDE])]
     sheets = [STAGED, *([MIRRORED] if mirrored else [])]
-    return pn.Column(*sides[:: -1 if mirrored else 1], sizing_mode="stretch_width", margin=0, stylesheets=sheets)
+    return column(*sides[:: -1 if mirrored else 1], stylesheets=sheets)
 
 
 def later(made, place):
@@ -167,4 +173,4 @@ def flexible(*cards):
         "padding": "12px 24px 24px",
         "align-items": "start",
     }
-    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)
+    return column(*(each for each, _ in cards), styles=styles)

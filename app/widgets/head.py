@@ -7,10 +7,10 @@ The browser answers a click on a tab by showing the place of its room; Python th
 import panel as pn
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import asked
 from app.text import LANGUAGES, listed, say, spoken
+from app.widgets.forms import hear
 
 
 class Head(Bundled):
@@ -35,8 +35,7 @@ class HeadBar:
         goes = {name: lambda value, name=name: self._go(name, value) for name in ("room", "level")}
         self._does = steps | switches | goes | does
         self.view = Head(margin=0, sizing_mode="stretch_width")
-        at_once(self.view, "asked")
-        self.view.param.watch(asked.heard(self._heard), "asked")
+        hear(self.view, asked=self._heard)
         rooms.param.watch(self._say, ["room", "level"])
         url_state.param.watch(self._say, ["can_undo", "can_redo"])
         look.param.watch(self._say, list(self.SWITCHES))

@@ -43,8 +43,7 @@ class PlaneView(Bundled):
     path = param.Bytes(default=b"", doc="(n, 5) theta, low, high, K_J, K_R of a Slipping; empty if none is shown.")
     clock = param.String(default="lab", constant=True, doc="The name of the clock that moves the bead.")
     hand = param.List(
-        default=[],
-        doc="[grip, theta, K_J] of a hand, the browser writes it; grip: as of app.model.hands.pulled.",
+        default=[], doc="[grip, theta, K_J] of a hand, the browser writes it; grip: as of app.model.hands.pulled."
     )
     pressed = param.List(default=[], doc="[count, road] of a button, the browser writes it.")
 

@@ -6,13 +6,13 @@ import json
 import numpy as np
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.bodies import body
 from app.model.build.dimensions import handles, pulled, value_of
 from app.model.build.measures import measures
 from app.state import asked
 from app.text import listed, say
+from app.widgets.forms import hear
 from app.widgets.numbers import tidy
 from tippe_core import LoadedSphere, TruncatedSphere, Turned
 
@@ -44,9 +44,7 @@ class Section:
         self._pull, self._tap, self._shape = pull, tap, None
         self.last_point = None  # index of the point of a Lathe that was dragged last
         self.view = SectionView(sizing_mode="stretch_width", margin=0)
-        for name, does in (("hand", self._pulled), ("tapped", self._tapped)):
-            at_once(self.view, name)
-            self.view.param.watch(asked.heard(does), name)
+        hear(self.view, hand=self._pulled, tapped=self._tapped)
 
     def _pulled(self, event):
         name, x, z = asked.parts(event.new, self._handle, asked.number, asked.number)

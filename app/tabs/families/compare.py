@@ -4,8 +4,7 @@ import time
 from functools import partial
 
 import numpy as np
-import panel as pn
-from bokeh.models import BasicTickFormatter, ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d, Scatter
+from bokeh.models import BasicTickFormatter, ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Scatter
 from bokeh.palettes import Viridis256
 
 from app.model.build.builder import thrown
@@ -14,10 +13,9 @@ from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
 from app.widgets.cards import alert, flow, note, progress, words
-from app.widgets.choice import Choice
-from app.widgets.forms import Button, Field
+from app.widgets.forms import Button, Choice, Field
 from app.widgets.numbers import typed_number
-from app.widgets.plots import decimals, draw, in_language, plain
+from app.widgets.plots import decimals, draw, in_language, pane, plain
 from tippe_core import TopError, TruncatedSphere
 
 PICTURE_EVERY = 0.5  # s
@@ -46,12 +44,11 @@ class Compare:
                         for name, symbol in self.FIELDS}  # fmt: skip
         self._prefill()
         self.said = words()
-        self.map = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*_sides(RATIOS)), name="map")
-        fig.update(sizing_mode="stretch_width", height=330)
+        bottom, top = _sides(RATIOS)
+        self.map = fig = plain(height=330, x_range=(0, 1), y_range=(bottom, top), name="map")
         colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
         self.shares = ColumnDataSource({"share": [], "x": [], "w": []})
         self.here = ColumnDataSource({"a": [], "ratio": []})
-        bottom, top = _sides(RATIOS)
         picture = fig.image("share", x="x", dw="w", y=bottom, dh=top - bottom, source=self.shares,
                             color_mapper=colours)  # fmt: skip
         draw(fig, Scatter, "a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
@@ -79,7 +76,7 @@ class Compare:
             self.bar,
             self.said,
             words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
-            pn.pane.Bokeh(self.map, sizing_mode="stretch_width", height=330, margin=0),
+            pane(self.map),
             words('<div style="text-align: center"><i>a</i>/<i>R</i></div>'),
             words(note(say("family.map.here"))),
         ]  # fmt: skip

@@ -2,7 +2,7 @@
 the map of all tops."""
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Label, MultiLine, Range1d, Scatter, Segment, Text
+from bokeh.models import ColumnDataSource, Label, MultiLine, Scatter, Segment, Text
 
 from app.bundle import call
 from app.model.build.dimensions import named
@@ -51,8 +51,8 @@ class Well:
     above. If there are several wells in succession, the one at the time of the clock is shown."""
 
     def __init__(self):
-        self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
-        fig.min_border_left, fig.min_height = 50, 130
+        self.figure = fig = plain(x_range=(-5, 185), y_range=(0, 1), name="planes-well", min_border_left=50,
+                                  min_height=130)  # fmt: skip
         fig.xaxis.ticker = [0, 30, 60, 90, 120, 150, 180]
         self.wells = ColumnDataSource({name: [] for name in ("theta", "V", "alpha", "low", "high")})
         self.steady = ColumnDataSource({name: [] for name in ("theta", "V", "stable", "well", "fill", "alpha")})
@@ -71,19 +71,9 @@ class Well:
         self.none = Label(x=90, y=0, y_offset=60, text=say("planes.keys.no_well"), text_align="center",
                           text_color=COLOURS["friction"], text_font_size="14px", visible=False)  # fmt: skip
         fig.add_layout(self.none)
-        fig.js_on_change(
-            "inner_width",
-            call(
-                "followWell",
-                path=self.path,
-                bead=self.bead,
-                wells=self.wells,
-                steady=self.steady,
-                none=self.none,
-                range=fig.y_range,
-                clock=CLOCK,
-            ),
-        )
+        fig.js_on_change("inner_width", call("followWell", path=self.path, bead=self.bead, wells=self.wells,
+                                             steady=self.steady, none=self.none, range=fig.y_range,
+                                             clock=CLOCK))  # fmt: skip
 
     def show(self, scene):
         found, bead = wells(scene.motions[scene.watched], scene.start)
@@ -133,7 +123,7 @@ class Map:
 
     def __init__(self, pick, pick_body):
         self._pick, self._pick_body = pick, pick_body
-        self.figure = fig = plain(x_range=Range1d(*MAP_X), y_range=Range1d(*MAP_Y), name="planes-map")
+        self.figure = fig = plain(x_range=MAP_X, y_range=MAP_Y, name="planes-map")
         (left, right), (low, high) = MAP_X, MAP_Y
         looks = {"never rises": (FAINT, 0.3), "can invert": (COLOURS["friction"], 0.22),
                  "rises part of the way": (COLOURS["jellett"], 0.25), "can stand upright": (COLOURS["normal"], 0.2),

@@ -10,7 +10,6 @@ from functools import partial
 
 import panel as pn
 
-from app.borrowed import at_once
 from app.bundle import pack
 from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
 from app.model.inputs import INPUTS
@@ -27,6 +26,7 @@ from app.tabs.lab.words import carried_words, notes, trace_words
 from app.text import listed, say, speaking, spoken
 from app.widgets.controls import valid
 from app.widgets.failure import after
+from app.widgets.forms import hear
 from app.widgets.rest import Rest
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
@@ -104,8 +104,7 @@ class LabTab:
         self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self._rolls = ""
         self.view = LabView(sizing_mode="stretch_width", margin=0)
-        at_once(self.view, "asked")
-        self.view.param.watch(asked.heard(self._heard), "asked")
+        hear(self.view, asked=self._heard)
         lab.param.watch(self._changed, ["scene", "ends", "busy"])
         self.view.param.watch(self._opened, "level")
         self.show()

@@ -8,7 +8,6 @@ from contextlib import suppress
 import numpy as np
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.arrival import SPIN, TILT
 from app.model.lesson import lesson
@@ -50,10 +49,6 @@ class LessonView(Bundled):
         own |= {"room": listed("teach.room", language)}
         drawn = listed("learn.pictures", language)
         return super().says(language) | listed("lab_view.view", language) | {"lesson": own, "drawn": drawn}
-
-    def __init__(self, **params):
-        super().__init__(**params)
-        at_once(self, "asked")
 
 
 def cut(motion, end):

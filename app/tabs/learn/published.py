@@ -7,12 +7,13 @@ import param
 from app.bundle import Bundled, pack
 from app.model import published
 from app.model.colours import COLOURS
-from app.model.runs import Run, Stopped
+from app.model.runs import Run
 from app.model.setup import TOYS
 from app.state import names
 from app.state.codecs import Body
 from app.text import listed, say
 from app.widgets.cards import card, grid, tall, words
+from app.widgets.failure import unless_stopped
 
 DRAWN = {"coulomb": ("#5b6875", ""), "smoothed": (COLOURS["theta"], "dashed"), "patch": (COLOURS["normal"], ""),
          "stepped": ("#c0392b", "dotted")}  # fmt: skip
@@ -91,13 +92,9 @@ def steps_view(runs):
     steps = Steps(points=points, sizing_mode="stretch_width", margin=0)
 
     def take(found):
-        if isinstance(found, Stopped):
-            return
-        if isinstance(found, Exception):
-            raise found
         steps.curves = [curve_said(curve) for curve in found]
 
-    runs.begin(Run(lambda run: published.curves(), take), "published")
+    runs.begin(Run(lambda run: published.curves(), unless_stopped(take)), "published")
     return steps
 
 
