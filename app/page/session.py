@@ -173,7 +173,7 @@ class Session:
         parts = {"section": bench.section_view, "bench": bench.bench_view, "measure": own.view}
         section, measures, rocking = (card(say(f"main.cards.{name}"), *shown) for name, shown in parts.items())
         stage = column(*built.view)
-        return staged([later(stage, -1), later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
+        return staged([later(stage, -1), later(rocking, 2)], [section, later(measures, 1)])
 
     def _spin(self):
         """Shows the run of the verdict."""

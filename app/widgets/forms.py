@@ -9,6 +9,7 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import asked
+from app.text import say
 
 MOST_CLICKS = 10  # in one message
 
@@ -18,6 +19,25 @@ def hear(component, **does):
     at_once(component, *does)
     for name, act in does.items():
         component.param.watch(asked.heard(act), name)
+
+
+def one_of(known):
+    """A reader for asked.parts: one of these texts."""
+
+    def read(value):
+        if isinstance(value, str) and value in known:
+            return value
+        raise asked.Unasked(f"not offered: {value!r:.40}")
+
+    return read
+
+
+def typed_number(text):
+    """The number that was typed; raises ValueError."""
+    value = float(text.replace("−", "-").replace(",", "."))
+    if not math.isfinite(value):
+        raise ValueError
+    return value
 
 
 class Part(Bundled):
@@ -94,6 +114,16 @@ class Field(Part):
     def refuse(self, why="", nearest="", back=""):
         """why: plain text; empty: nothing is wrong."""
         self.wrong = [why, nearest, back] if why else []
+
+    def number(self, key, back="", **named):
+        """The number that was typed. If it is none, says so, in the words under this key, and raises ValueError."""
+        try:
+            found = typed_number(self.value)
+        except ValueError:
+            self.refuse(say(key, text=self.value, **named), back=back)
+            raise
+        self.refuse()
+        return found
 
 
 class Choice(Part):

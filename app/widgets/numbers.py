@@ -64,14 +64,6 @@ def tidy(value):
     return written(value, ".6g")
 
 
-def typed_number(text):
-    """The number that was typed; raises ValueError."""
-    value = float(text.replace("−", "-").replace(",", "."))
-    if not math.isfinite(value):
-        raise ValueError
-    return value
-
-
 class Numbers:
     """A group of inputs, `view`. ask: called with the name of one, the requested value, and whether it was typed."""
 

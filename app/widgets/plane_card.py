@@ -10,6 +10,7 @@ from app.model.runs import LATER, Run, Runs
 from app.model.start import DEFAULTS, GIVEN
 from app.state import asked
 from app.widgets.failure import unless_stopped
+from app.widgets.forms import one_of
 from app.widgets.plane_view import PlaneView
 from tippe_core import Top, TruncatedSphere
 
@@ -27,9 +28,7 @@ class PlaneCard:
         self.plane.param.watch(asked.heard(self._on_road), "pressed")
 
     def _on_road(self, event):
-        _, road = asked.parts(event.new, asked.number, asked.text)
-        if road not in self._roads:
-            raise asked.Unasked("not a button")
+        _, road = asked.parts(event.new, asked.number, one_of(self._roads))
         with pn.io.hold():
             self._roads[road]()
 

@@ -29,6 +29,8 @@ CLICKS, DRAG = ("tap", "doubletap"), ("panstart", "pan", "panend")
 well."""
 TICKS = Path(__file__).parents[1].joinpath("ticks.js").read_text(encoding="utf-8")
 GRID, PAPER = "#e7ebef", "#ffffff"
+LETTERS = {f"{part}_text_{name}": value for part in ("major_label", "axis_label")
+           for name, value in (("color", INK), ("font_size", "12px"), ("font", FAMILY))}  # fmt: skip
 
 
 def in_language(basic):
@@ -50,22 +52,22 @@ def plain(label="", height=None, **options):
     fig = figure(title=None, toolbar_location=None, tools="", outline_line_color=None, min_border=4,
                  background_fill_alpha=0, border_fill_alpha=0, lod_threshold=None, **size, **options)  # fmt: skip
     fig.grid.grid_line_color = GRID
-    fig.axis.axis_line_color = fig.axis.major_tick_line_color = FAINT
-    fig.axis.minor_tick_line_color = None
-    fig.axis.major_label_text_color = fig.axis.axis_label_text_color = INK
-    fig.axis.major_label_text_font_size = fig.axis.axis_label_text_font_size = "12px"
-    fig.axis.axis_label_text_font_style = "normal"
-    fig.axis.major_label_text_font = fig.axis.axis_label_text_font = FAMILY
-    fig.axis.major_tick_in = 0
-    fig.axis.major_label_policy = AllLabels()  # the same object for both
-    if decimal_point() != ".":
-        for axis in fig.axis:
-            if isinstance(axis.formatter, BasicTickFormatter):
-                axis.formatter = in_language(axis.formatter)
+    all_labels = AllLabels()  # the same object for both
+    for axis in fig.axis:
+        axis.update(axis_line_color=FAINT, major_tick_line_color=FAINT, minor_tick_line_color=None, major_tick_in=0,
+                    major_label_policy=all_labels, axis_label_text_font_style="normal", **LETTERS)  # fmt: skip
+        if decimal_point() != "." and isinstance(axis.formatter, BasicTickFormatter):
+            axis.formatter = in_language(axis.formatter)
     if label or fig.name:
         label = label or say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
+
+
+def padded(low, high):
+    """The range with some margin below and above."""
+    pad = 0.08 * (high - low) or 0.05
+    return {"start": low - pad, "end": high + pad}
 
 
 def pane(fig, **styles):

@@ -10,7 +10,7 @@ from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.roll import portraits
 from app.text import say
-from app.widgets.plots import PAPER, draw, on_pointer, plain, rule
+from app.widgets.plots import PAPER, draw, on_pointer, padded, plain, rule
 
 POINTS_OF_A_TRACK = 480  # on a screen
 
@@ -57,9 +57,7 @@ class Portrait:
     def frame(self, x, y):
         """Sets the ranges so that they contain these values."""
         for range_, values in ((self.figure.x_range, x), (self.figure.y_range, y)):
-            low, high = np.min(values), np.max(values)
-            pad = 0.08 * (high - low) or 0.05
-            range_.update(start=low - pad, end=high + pad)
+            range_.update(**padded(np.min(values), np.max(values)))
 
 
 class Curve(Portrait):

@@ -20,6 +20,7 @@ COLOUR = {"theta": "ink", "omega3": "omega", "normal": "normal", "ratio": "norma
           "K_J": "jellett", "K_R": "routh"}  # fmt: skip
 """{quantity: a name of COLOURS}"""
 DASHES = {"ordinary": [], "rough": [7, 4], "ice": [2, 3]}
+CLOCK = "lab"  # of the browser
 LEFT = 50  # px, left of every time axis
 RISES = 1.4  # how far above the friction of the table its axis goes at least
 
@@ -45,10 +46,10 @@ def key():
 
 
 class TimeFigures:
-    """figures: {name: figure}, of ROWS and those that add() has added. clock: the name of the browser's clock."""
+    """figures: {name: figure}, of ROWS and those that add() has added."""
 
-    def __init__(self, clock="lab"):
-        self._clock, self._unit = clock, ColumnDataSource(tags=[1.0])  # s in one unit of the clock's time
+    def __init__(self):
+        self._unit = ColumnDataSource(tags=[1.0])  # s in one unit of the clock's time
         self._x_range, self._spans, self.figures = Range1d(0, 1), [], {}
         self._events = ColumnDataSource({"t": []})
         names = [prefix + name for name in QUANTITIES for prefix in ("", "t_")]
@@ -63,7 +64,7 @@ class TimeFigures:
         self._limit = rule(self.figures["ratio"], "width", 1, line_color=INK, line_dash=[6, 4], line_width=1)
         pulls = BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
         self.figures["normal"].add_layout(pulls)
-        followed = {"spans": self._spans, "path": self._unit, "range": self._x_range, "clock": clock}
+        followed = {"spans": self._spans, "path": self._unit, "range": self._x_range, "clock": CLOCK}
         self.figures["theta"].js_on_change("inner_width", call("moveLines", **followed))
 
     def add(self, name):
@@ -74,7 +75,7 @@ class TimeFigures:
                                          min_border_left=LEFT)  # fmt: skip
         fig.yaxis.ticker.desired_num_ticks = 3
         self._spans.append(rule(fig, "height", level="overlay", line_color=COLOURS["accent"], line_width=2))
-        on_pointer(fig, call("seekAlong", path=self._unit, clock=self._clock))
+        on_pointer(fig, call("seekAlong", path=self._unit, clock=CLOCK))
         return fig
 
     def show_motions(self, trajectories, watched, scales, *, mu=None, until=np.inf, events=()):

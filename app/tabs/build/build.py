@@ -17,7 +17,7 @@ from app.text import listed, say, written
 from app.widgets.cards import alert, column, flow, note, words
 from app.widgets.download import Download
 from app.widgets.forms import Button, Choice, Field, Menu, TextFile
-from app.widgets.numbers import Numbers, number, tidy, typed_number
+from app.widgets.numbers import Numbers, number, tidy
 from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
@@ -51,20 +51,14 @@ class Pieces:
         self.put = Button(say("build.pieces.put"), lambda: self._compose(1))
         self.take = Button(say("build.pieces.take"), lambda: self._compose(-1))
         self.undo = Button(say("build.pieces.undo"), builder.take_off)
-        self._view = column(
-            words(note(say("build.pieces.says"))),
-            flow(self.kind, *self.entries.values(), self.density),
-            flow(self.put, self.take, self.undo),
-            self.words)  # fmt: skip
-
-    @property
-    def view(self):
-        return [self._view]
+        inputs = flow(self.kind, *self.entries.values(), self.density)
+        self.view = column(words(note(say("build.pieces.says"))), inputs, flow(self.put, self.take, self.undo),
+                           self.words)  # fmt: skip
 
     def show(self, shape):
-        self._view.visible, self.density.value = not isinstance(shape, BareSphere), ""
+        self.view.visible, self.density.value = not isinstance(shape, BareSphere), ""
         self.undo.visible = isinstance(shape, Turned) and len(shape.solid.slices) > 1
-        if self._view.visible:
+        if self.view.visible:
             density = getattr(shape, "density", shape.mass / shape.volume)
             # what is removed must be exactly what was added: the number itself, not its displayed digits
             self._exact = density[0] if isinstance(density, tuple) else density
@@ -72,16 +66,12 @@ class Pieces:
         self.words.object = ""
 
     def _compose(self, sign):
-        values = {}
-        for name, entry in (*self.entries.items(), ("density", self.density)):
-            try:
-                values[name] = typed_number(entry.value)
-            except ValueError:
-                which = say(f"build.pieces.names.{name}")
-                good = dict(self.FIELDS).get(name, tidy(self._exact))
-                entry.refuse(say("build.pieces.not_a_number", name=which, text=entry.value), "", good)
-                return
-            entry.refuse()
+        good, key = dict(self.FIELDS) | {"density": tidy(self._exact)}, "build.pieces.not_a_number"
+        try:
+            values = {name: entry.number(key, good[name], name=say(f"build.pieces.names.{name}"))
+                      for name, entry in (*self.entries.items(), ("density", self.density))}  # fmt: skip
+        except ValueError:
+            return
         density = self._exact if self.density.value == tidy(self._exact) else values["density"]
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
 
@@ -163,22 +153,14 @@ class Build:
     def section_view(self):
         """What kind of body, its section, the results, and whether the explorer's numbers are still those of the
         body."""
-        drawn = self.section.view
-        return [flow(self.families, self.material.view), drawn, self.numbers, self.derived, self.parted]
+        kinds = flow(self.families, self.material.view)
+        return [kinds, self.section.view, self.numbers, self.derived, self.parted]
 
     @property
     def bench_view(self):
         """The inputs."""
-        files = flow(self.saved, self.file, self.stl)
-        return [
-            self.inside.view,
-            self.dimensions.view,
-            self.points,
-            *self.pieces.view,
-            files,
-            self.file_words,
-            self.source,
-        ]
+        return [self.inside.view, self.dimensions.view, self.points, self.pieces.view,
+                flow(self.saved, self.file, self.stl), self.file_words, self.source]  # fmt: skip
 
     def _show(self, draft):
         with pn.io.hold():
@@ -219,12 +201,8 @@ class Build:
         wrong = {name: typeset(said) for name, said in draft.messages.items() if name in dimensions}
         for name, value in self._tried.items():  # what cannot be any more is said where the hand was
             if wrong and name in dimensions and name not in wrong:
-                said = {
-                    "name": dimensions[name].words,
-                    "unit": dimensions[name].unit,
-                    "why": next(iter(wrong.values())),
-                }
-                wrong = {name: say("build.bench.with_it", value=tidy(value), **said)}
+                wrong = {name: say("build.bench.with_it", value=tidy(value), name=dimensions[name].words,
+                                   unit=dimensions[name].unit, why=next(iter(wrong.values())))}  # fmt: skip
         tried = {name: value for name, value in self._tried.items() if name in wrong}
         near = {name: nearest(shape, dimensions[name], value) for name, value in tried.items()}
         self.dimensions.show(values, tracks, messages=wrong, refused=tried,

@@ -15,7 +15,7 @@ from app.state import asked
 from app.tabs.families.drawings import LETTERS, pair
 from app.text import listed, say
 from app.widgets.cards import alert, flow, note, words
-from app.widgets.forms import Button, hear
+from app.widgets.forms import Button, hear, one_of
 
 HIGH = 620  # px
 POINTS = 80  # of an outline
@@ -64,11 +64,9 @@ class Tops:
         self._look(known) if known and known is not before else self._put()
 
     def _picked(self, event):
-        _, name = asked.parts(event.new, asked.number, asked.text)
-        found = next((each for each in known_tops() if each.name == name), None)
-        if found is None:
-            raise asked.Unasked(name)
-        self._look(found)
+        known = {top.name: top for top in known_tops()}
+        _, name = asked.parts(event.new, asked.number, one_of(known))
+        self._look(known[name])
 
     def _moved(self, event):
         """Asks for a ball with these numbers and the I1 of the page's top."""

@@ -141,7 +141,8 @@ class Research(param.Parameterized):
 
         def show(scene):
             tables.visible = scene.table == "three"
-            figures.show(scene, self._span(scene))
+            rolling = self._lab.explorer.scene  # some nods at first, if that is all that it does
+            figures.show(scene, rolling.trajectory.t[-1] * rolling.scales.time if scene.table == "rough" else np.inf)
 
         content = [
             tables, *(row(figures, name, 84) for name in ROWS),
@@ -149,11 +150,6 @@ class Research(param.Parameterized):
             row(figures, "ledger", 130), words(f'<div class="axis">{say("planes.keys.time")}</div>'),
         ]  # fmt: skip
         return content, {"lab": show}
-
-    def _span(self, scene):
-        """For how long (s) the motion is drawn at first: some nods, if that is all that it does."""
-        rolling = self._lab.explorer.scene
-        return rolling.trajectory.t[-1] * rolling.scales.time if scene.table == "rough" else np.inf
 
     def _make_values(self):
         happened = Moments(clock="lab", sizing_mode="stretch_width", margin=(4, 0, 0, 0))

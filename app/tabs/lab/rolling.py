@@ -22,16 +22,6 @@ HIGH = "calc(var(--type, 1) * clamp(420px, 100vh - 400px, 700px))"  # of a panel
 HALF = 330  # px: of two portraits
 
 
-def unit_words(scene):
-    unit = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
-    return f'<div class="axis">{unit}</div>'
-
-
-def kept_words(scene):
-    """How well the constants, recomputed from the motion, are conserved."""
-    return f'<div class="axis key">{say("roll.says.kept", drift=power(scene.drift))}</div>'
-
-
 class Switch:
     """A choice of several portraits, one at a time; each is created when it is first shown. soon: that of a
     RenderScheduler."""
@@ -97,7 +87,8 @@ class Rolling:
             self._scene = scene
             show_surface(surface, scene)
 
-        title = words(f"<h2>{say('roll.cards.floor', height=named('height'), plane=plane_symbols())}</h2>")
+        plane = f"({named('K_J')}, {named('angle')})"
+        title = words(f"<h2>{say('roll.cards.floor', height=named('height'), plane=plane)}</h2>")
         place = column(title, surface, styles={"height": HIGH})
         return [place], {"pictures": draw}
 
@@ -113,7 +104,12 @@ class Rolling:
 
     def say(self, scene):
         """Says what a unit of time is, and how well the constants of a rolling motion stay; nothing of None."""
-        self.kept.text = unit_words(scene) + kept_words(scene) if scene else ""
+        if scene is None:
+            self.kept.text = ""
+            return
+        unit = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
+        kept = say("roll.says.kept", drift=power(scene.drift))
+        self.kept.text = f'<div class="axis">{unit}</div><div class="axis key">{kept}</div>'
 
     # ---- requests by hand ----
 
@@ -130,7 +126,3 @@ class Rolling:
         else:
             grip, (K_J, theta) = "tieline", asked.parts(event.new, asked.number, asked.number)
         self._grabbed(grip, theta, K_J, self._scene.plane.limit)
-
-
-def plane_symbols():
-    return f"({named('K_J')}, {named('angle')})"

@@ -61,7 +61,7 @@ class Learn(param.Parameterized):
         lines = later(card(say("derivation.page.title"), intro, self.derivation.place), 1)
         top = first(card(say("learn.page.top"), self.top))
         # a hidden Column inside, because a grid with a layout of its own cannot be hidden
-        self.pair = column(staged([top], [lines], mirrored=True))
+        self.pair = column(staged([top], [lines]))
         self.others = column()
         self._made = {}
         return column(self.sections, self.lesson, self.pair, self.others, css_classes=["learn"])

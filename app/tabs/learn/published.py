@@ -48,14 +48,8 @@ RESULTS = {
     "dojo": {},
 }  # fmt: skip
 ON_ICE = _opens(*TOYS_OWN, table="ice")
-EXPLANATIONS = {
-    "racket": LAWS["patch"],
-    "conserved": ON_ICE,
-    "space": ON_ICE,
-    "reverses": _opens(*TOYS_OWN),
-    "rough": _opens(*TOYS_OWN, table="rough"),
-    "inertial": ON_ICE,
-}
+EXPLANATIONS = {"racket": LAWS["patch"], "conserved": ON_ICE, "space": ON_ICE, "reverses": _opens(*TOYS_OWN),
+                "rough": _opens(*TOYS_OWN, table="rough"), "inertial": ON_ICE}  # fmt: skip
 
 
 class Steps(Bundled):
@@ -67,12 +61,8 @@ class Steps(Bundled):
     @classmethod
     def says(cls, language=None):
         drawn, decimal = listed("learn.pictures", language), say("browser.NumberControls.decimal", language)
-        return super().says(language) | {
-            "steps": listed("published.view", language),
-            "decimal": decimal,
-            "drawn": drawn,
-            "open": say("published.page.open", language),
-        }
+        return super().says(language) | {"steps": listed("published.view", language), "decimal": decimal,
+                                         "drawn": drawn, "open": say("published.page.open", language)}  # fmt: skip
 
 
 def curve_said(curve):
@@ -122,7 +112,6 @@ def published_view(runs):
 
     why = (words(f"<p style='margin: 0 0 6px'>{say('published.page.cohen')}</p>"), steps_view(runs),
            words(f"<p style='margin: 6px 0 0'>{say('published.page.why')}</p>"))  # fmt: skip
+    results = words(f"<p style='margin: 0 0 12px'>{say('published.page.intro')}</p>{results}")
     left = tall(carded("question", *why), carded("explanations", words(explanations)))
-    return grid(
-        left, carded("results", words(f"<p style='margin: 0 0 12px'>{say('published.page.intro')}</p>{results}"))
-    )
+    return grid(left, carded("results", results))

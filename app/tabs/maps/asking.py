@@ -8,8 +8,7 @@ from app.model.maps.maps import COLOURS_BY, LAWS, MOST_CELLS, MOST_SECONDS, QUAN
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, written
 from app.widgets.cards import Hidden, flow, words
-from app.widgets.forms import Field, Menu
-from app.widgets.numbers import typed_number
+from app.widgets.forms import Field, Menu, typed_number
 
 SIDES = "across", "up"
 LIMITS = ("from", "to")
@@ -21,12 +20,9 @@ class Settings:
     def __init__(self, asked, colour, place, changed, gone):
         self._changed, self._gone, self._last = changed, gone, ""
         quantities = {says: name for name, says in listed("maps.quantities").items()}
-        options = {
-            "across": quantities,
-            "up": quantities,
-            "colour": {listed("maps.colours")[name]: name for name in COLOURS_BY},
-            "law": {listed("maps.laws")[name]: name for name in LAWS},
-        }
+        colours, laws = listed("maps.colours"), listed("maps.laws")
+        options = {"across": quantities, "up": quantities, "colour": {colours[name]: name for name in COLOURS_BY},
+                   "law": {laws[name]: name for name in LAWS}}  # fmt: skip
         self.choices = {name: Menu(say(f"maps.{name}"), options=each, value=next(iter(each.values())))
                         for name, each in options.items()}  # fmt: skip
         called, spoken = listed("maps.quantities"), {"seconds": say("maps.seconds"), "cells": say("maps.cells")}

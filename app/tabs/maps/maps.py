@@ -59,7 +59,7 @@ class Maps:
 
     def __init__(self, runs=None, scene=None, throw=None, seconds=MAP.seconds):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
-        self.choice, self.level, self._ones, self._seen, self._outline = MapChoice(), None, [], None, None
+        self.choice, self.level, self._seen, self._outline = MapChoice(), None, None, None
         self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen, self._outline = of_page(scene), scene.profile
@@ -67,7 +67,7 @@ class Maps:
             self.choice.asked = replace(self.usual["asked"], seconds=seconds)
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
-        self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
+        self.worst, self.key = words(), words(margin=(6, 0))
         self.run_says = words(margin=(6, 0), css_classes=["answer"])
         self.disagree = column()  # what is said, and a button for each
         self.map, self.curve = MapFigure(self._by_hand), RunFigure()
@@ -94,7 +94,7 @@ class Maps:
     def view(self):
         """The map, the run at the bead with the inputs, and what is below; one below the other if there is little
         room."""
-        above = [self.head, self.names, pane(self.map.figure),
+        above = [self.head, pane(self.map.figure),
                  flow(self.stop, self.closer, self.whole, self.bar, margin=(4, 0)), self.said,
                  words(note(say("maps.hint")))]  # fmt: skip
         below = [self.worst, *self.steady.view, words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)),
@@ -175,12 +175,13 @@ class Maps:
         self.settings.show(self.choice.asked, colour, self.choice.place)
         self.said.object = ""
         count = say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
-        self.head.object = f"<h2>{title(asked, colour)}</h2>" + note(": ".join(filter(None, (body_of(asked), count))))
+        axes = f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}"
+        says = note(": ".join(filter(None, (body_of(asked), count)))) + note(axes)
+        self.head.object = f"<h2>{title(asked, colour)}</h2>{says}"
         if asked == self.asked and self.level is not None:
             self._show(self.level)
             return
         before, self.asked, self.level = self.asked, asked, None
-        self.names.object = note(f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}")
         self.python.text = python(asked)
         self.map.begin(asked)
         for said in (self.key, self.worst):  # they belong to the previous map
@@ -248,7 +249,7 @@ class Maps:
             self.said.object = ""
             self.worst.object = note(of_worst(level))
             says = [words(of_reason(*each, asked)) for each in told_of] or [words(note(say("maps.agree")))]
-            shows = [Button(say("maps.show_one"), partial(self._show_one, i), kind="link") for i in range(len(told_of))]
+            shows = [Button(say("maps.show_one"), partial(self.go, *one, cell=True), kind="link") for one in self._ones]
             self.disagree.objects = [
                 *([words(f"<h2>{say('maps.disagree')}</h2>")] if told_of else []),
                 *(part for pair in zip_longest(says, shows) for part in pair if part is not None),
@@ -278,9 +279,6 @@ class Maps:
         # only a place that a person chose sets the start; first, so that both are one step of undo
         self._to_lab((across, up), look=False)
         self._go([across, up])
-
-    def _show_one(self, i):
-        self.go(*self._ones[i], cell=True)
 
     def _go(self, place):
         if place == self.choice.place:

@@ -10,8 +10,7 @@ from app.model.measured.table import taken_as
 from app.text import say, written
 from app.widgets import cards
 from app.widgets.cards import flow, note, words
-from app.widgets.forms import Field, Menu
-from app.widgets.numbers import typed_number
+from app.widgets.forms import Field, Menu, typed_number
 
 FIRST = 4  # values
 

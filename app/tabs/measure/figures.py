@@ -5,10 +5,11 @@ from functools import partial
 import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, FixedTicker, Label, Line, Range1d, Scatter, VArea, Whisker
 
-from app.bundle import call
+from app.bundle import call, pack
 from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
 from app.widgets.cards import column, words
+from app.widgets.film_stage import clear_motion, put_motion
 from app.widgets.forms import Stretch
 from app.widgets.plots import draw, on_pointer, pane, plain, rule
 
@@ -28,6 +29,16 @@ def size_of(quantity):
 def part_of_time(does):
     """A stretch in s."""
     return Stretch(say("measure.part"), does, unit="s", margin=(6, 0, 6, LEFT), sizing_mode="stretch_width")
+
+
+def show_film(stage, shown, outline):
+    """Shows a Shown on the stage; None: nothing. outline: (k, 2), that of the body."""
+    if shown is None:
+        clear_motion(stage)
+        return
+    start = shown.t[0] + 0.6 * (shown.t[-1] - shown.t[0])
+    label = say("measure.axis" if shown.azimuths else "measure.axis_tilt")
+    put_motion(stage, shown.t, shown.motion, outline, start, measured=pack(shown.axis), measured_label=label)
 
 
 def _heard(pulled, attr, old, new):

@@ -19,16 +19,16 @@ from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, 
 from app.model.runs import Run, Runs, Stopped
 from app.tabs.measure.asks import Asks
 from app.tabs.measure.columns import Columns
-from app.tabs.measure.figures import Pictures, constants, part_of_time
+from app.tabs.measure.figures import Pictures, constants, part_of_time, show_film
 from app.tabs.measure.file import Brought, Filmed
 from app.tabs.measure.home import Home
 from app.tabs.measure.places import PLACES, head
 from app.tabs.measure.recipe import recipes
-from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words
 from app.text import listed, say, told
 from app.widgets.cards import alert, areas, column, flow, note, words
 from app.widgets.failure import unless_stopped
+from app.widgets.film_stage import FilmStage
 from app.widgets.forms import Button, Checks, Choice
 from tippe_core import Top, TopError
 
@@ -49,7 +49,9 @@ class Measure:
         self.said, self.about = words(), words()
         self.file = Brought(self._runs, self.take, self._not_taken, self.said).file
         self.asks = Asks(self._answered)
-        self.stage, self.pictures = film_stage(), Pictures(self._pulled)
+        self.stage = FilmStage(clock="film", label=say("measure.stage.label"), none=say("measure.stage.none"),
+                               sizing_mode="stretch_width", height=300)  # fmt: skip
+        self.pictures = Pictures(self._pulled)
         self.columns = Columns(self._by_hand, self._wrong)
         self.constants, self.over, self.below = (column() for _ in range(3))
         self._make_controls()
