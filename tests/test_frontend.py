@@ -7,8 +7,8 @@ from PIL import Image
 
 from app.bundle import Bundled, pack
 from app.share.parts import Photo
-from app.widgets.choice import Choice
 from app.widgets.controls import control, track
+from app.widgets.forms import Choice
 from app.widgets.numbers import Numbers
 from app.widgets.surface3d import Surface3D
 from app.widgets.top3d import Top3D, pack_frames

@@ -31,7 +31,6 @@ NOT_SAID = {
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "desk.py", "files.py", "health.py", "logs.py",
                     "messages.py", "pages.py", "settings.py", "site.py", "sockets.py")},
-    "build/section.py": {"no handle {}": "said to the log"},
     "src/tokens.js": {"dark large": "a key"},
 }  # fmt: skip
 

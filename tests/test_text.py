@@ -138,7 +138,7 @@ def components():
 @pytest.mark.parametrize(("name", "script"), components(), ids=[name for name, _ in components()])
 def test_what_the_bundle_asks_for_is_there(name, script, language):
     module = next(
-        path for path in MODULES if re.search(rf"^class {name}\((Bundled|Part)\)", path.read_text("utf-8"), re.M)
+        path for path in MODULES if re.search(rf"^class {name}\((Bundled|Part)\b", path.read_text("utf-8"), re.M)
     )
     importlib.import_module(".".join(module.relative_to(APP.parent).with_suffix("").parts))
     [component] = [kind for kind in (*Bundled.__subclasses__(), *Part.__subclasses__()) if kind.__name__ == name]

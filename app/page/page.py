@@ -18,6 +18,7 @@ from app.tabs.learn.student import student_page
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
 from app.widgets import choices
+from app.widgets.cards import column
 from app.widgets.connection import Connection
 from app.widgets.failure import failure
 from app.widgets.guide import Guide
@@ -54,7 +55,7 @@ def page():
     unseen = {"width": 0, "height": 0, "margin": 0}
     framed = [Frame(**unseen)] if texts.get(FRAME) == "1" else []
     if VOTE in texts:  # the link of a student
-        return whole(*framed, student_page(texts[VOTE]), look, failed)
+        return column(*framed, student_page(texts[VOTE]), look, failed)
     session = Session(texts, sentence, lambda **where: rooms.param.update(**where), room.level(texts))
     scheduler, url_state = session.scheduler, session.url_state
     guide, tongue = Guide(width=0, height=0, margin=0), PageLanguage()
@@ -79,11 +80,7 @@ def page():
     toured()
     lost = Connection(words=say("main.lost"), slow=say("main.slow"), **unseen)
     around = [look, guide, scheduler.painted, lost, Symbols(**unseen), failed]
-    return whole(*(framed or [head.view]), *share.main, *around, *rooms.columns)
-
-
-def whole(*parts):
-    return pn.Column(*parts, sizing_mode="stretch_width", margin=0)
+    return column(*(framed or [head.view]), *share.main, *around, *rooms.columns)
 
 
 def chosen(rooms, session, tongue, share):

@@ -28,7 +28,7 @@ from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
 from app.text import say
-from app.widgets.cards import card, flexible, later, staged
+from app.widgets.cards import card, column, flexible, later, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt, full, waits
 from app.widgets.scheduling import RenderScheduler
@@ -118,7 +118,7 @@ class Session:
                        why=lambda: self._explain(**WHY), why_not=lambda: self._explain(**WHY_NOT))  # fmt: skip
         together(self.playing, tab.view)
         tab.view.styles = STAYS
-        view = pn.Column(tab.view, sizing_mode="stretch_width", margin=0, stylesheets=[BESIDE])
+        view = column(tab.view, stylesheets=[BESIDE])
         research = []
 
         def show(*events):
@@ -165,19 +165,15 @@ class Session:
         return mailed(link, look, below, letter=letter)
 
     def build(self):
-        bench, built, own = (
-            Build(self.builder, self.runs),
-            Built(self.runs, self._spin),
-            RockingFields(self.builder),
-        )
+        bench, built, own = (Build(self.builder, self.runs), Built(self.runs, self._spin), RockingFields(self.builder))
         for show in (bench.show, built.show):
             self.scheduler.shows(show, "rest")
         self._at_levels(lambda explores: bench.numbers.param.update(visible=not explores))
         self._at_levels(lambda explores: own.formula.param.update(visible=not explores))
         parts = {"section": bench.section_view, "bench": bench.bench_view, "measure": own.view}
         section, measures, rocking = (card(say(f"main.cards.{name}"), *shown) for name, shown in parts.items())
-        stage = pn.Column(*built.view, sizing_mode="stretch_width", margin=0)
-        return staged([later(stage, -1), later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
+        stage = column(*built.view)
+        return staged([later(stage, -1), later(rocking, 2)], [section, later(measures, 1)])
 
     def _spin(self):
         """Shows the run of the verdict."""

@@ -11,10 +11,9 @@ from app.share.saved_runs import Shown
 from app.state.names import FRAME, VERSION, VERSION_NAME
 from app.text import listed, say
 from app.widgets.cards import px, words
-from app.widgets.choice import Choice
 from app.widgets.copy import Copy
 from app.widgets.download import Download
-from app.widgets.forms import Fold
+from app.widgets.forms import Choice, Fold
 from tippe_core import BareSphere
 
 RUN = {

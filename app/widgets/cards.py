@@ -5,16 +5,15 @@ import panel as pn
 from app.widgets.typeset import typeset
 
 LINK = "color-mix(in srgb, var(--link) 60%, var(--ink))"  # legible on light and on dark
-# The stage beside the other cards. On a narrow page both give their cards to one column.
+# The stage at the right of the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 STAGED = """
 :host { display: flex; flex-direction: column; gap: 24px; padding: 12px 16px 16px; min-height: max-content }
 @media (min-width: 1000px) {
   :host { display: grid; align-items: start; padding: 12px 24px 24px;
-    grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) }
+    grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) }
 }
 """
-MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
 SIDE = """
 :host { display: contents }
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 24px } }
@@ -26,7 +25,7 @@ FIRST = """
 :host { position: sticky; top: HEAD; z-index: 5; height: min(50vh, 400px) !important }
 @media (max-width: 700px) { :host { height: 330px !important } }
 @media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
-""".replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)")
+""".replace("HIGH", "clamp(390px, 100vh - HEAD - 24px, 52vw)")
 # A name, a note, and an error, wherever they are.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
@@ -53,6 +52,8 @@ progress::-moz-progress-bar { background: var(--ink) }
 a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
 """.replace("LINK", LINK) + NOTES  # fmt: skip
 
+WRAPS, ROOM = {"display": "flex", "flex-flow": "row wrap"}, {"gap": "24px", "padding": "12px 24px 24px"}
+
 
 def px(size):
     """A font size in CSS, larger for a projector."""
@@ -62,6 +63,17 @@ def px(size):
 def words(text="", style="", **options):
     """Text as HTML; style: additional CSS."""
     return pn.pane.HTML(text, stylesheets=[TYPE + style], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def column(*parts, **options):
+    """Parts, one below the other."""
+    return pn.Column(*parts, **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def areas(sheet, inside=(), /, **content):
+    """Parts that a style sheet arranges by their names, which are their classes; inside: sheets of each."""
+    parts = [column(*part, css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
+    return column(*parts, stylesheets=[sheet])
 
 
 def alert(text):
@@ -77,7 +89,7 @@ def tall(*cards):
     """A column of a grid with its own height: its cards are higher than a phone's page, and the next column would hide
     them."""
     styles = {"gap": "24px", "height": "max-content", "max-height": "none"}
-    return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
+    return column(*cards, styles=styles)
 
 
 def progress(percent, says):
@@ -89,31 +101,21 @@ def swatch(colour, text, style="solid"):
     return f'<span><span class="swatch" style="border-color: {colour}; border-top-style: {style}"></span>{text}</span>'
 
 
-def card(title, *content, height="max-content"):
+def card(title, *content):
     """A part of a room, with its title."""
-    styles = {"height": height, "box-sizing": "border-box", "overflow": "hidden"}
-    return pn.Column(words(f"<h2>{title}</h2>"), *content, sizing_mode="stretch_width", margin=0, styles=styles)
+    styles = {"height": "max-content", "box-sizing": "border-box", "overflow": "hidden"}
+    return column(words(f"<h2>{title}</h2>"), *content, styles=styles)
 
 
 def flow(*content, margin=(6, 0)):
     """A row that wraps if there is too little room."""
-    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
-    return pn.Column(*content, sizing_mode="stretch_width", margin=margin, styles=styles)
+    return column(*content, margin=margin, styles=WRAPS | {"gap": "8px", "align-items": "center"})
 
 
-def grid(*cards, narrowest=480):
+def grid(*cards):
     """Cards side by side where there is room."""
-    return pn.Column(
-        *cards,
-        sizing_mode="stretch_width",
-        margin=0,
-        styles={
-            "display": "grid",
-            "grid-template-columns": f"repeat(auto-fit, minmax(min(100%, {narrowest}px), 1fr))",
-            "gap": "24px",
-            "padding": "12px 24px 24px",
-        },
-    )
+    columns = "repeat(auto-fit, minmax(min(100%, 480px), 1fr))"
+    return column(*cards, styles=ROOM | {"display": "grid", "grid-template-columns": columns})
 
 
 class Hidden(pn.Column):
@@ -131,23 +133,17 @@ class Hidden(pn.Column):
             self.objects = make()
 
 
-def first(made, below=0):
-    """Makes a card the first of a stage; below: the height in px of the other cards of the stage, with the gaps."""
-    made.styles = made.styles | {"--below": f"{below}px"}
+def first(made):
+    """Makes a card the first of a stage."""
     made.stylesheets = [*made.stylesheets, FIRST.replace("HEAD", HEAD)]
     return made
 
 
-def staged(stage, others, mirrored=False):
+def staged(stage, others):
     """The cards of the stage and the other cards: side by side if there is room, the stage then 57 % wide and in sight
-    while the others scroll; else in one column, in the `order` of each card, the first one in sight. mirrored: the
-    stage is on the right, and in one column after the others."""
-    sides = [
-        pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]),
-        pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
-    ]
-    sheets = [STAGED, *([MIRRORED] if mirrored else [])]
-    return pn.Column(*sides[:: -1 if mirrored else 1], sizing_mode="stretch_width", margin=0, stylesheets=sheets)
+    while the others scroll; else in one column, in the `order` of each card, those of the stage after the others."""
+    on_the_right = column(*stage, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)])
+    return column(column(*others, stylesheets=[SIDE]), on_the_right, stylesheets=[STAGED])
 
 
 def later(made, place):
@@ -160,11 +156,4 @@ def flexible(*cards):
     """A row of (card, its CSS flex: growth, shrinkage and least width), which wraps."""
     for each, flex in cards:
         each.styles = each.styles | {"flex": flex, "min-width": "0"}
-    styles = {
-        "display": "flex",
-        "flex-flow": "row wrap",
-        "gap": "24px",
-        "padding": "12px 24px 24px",
-        "align-items": "start",
-    }
-    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)
+    return column(*(each for each, _ in cards), styles=ROOM | WRAPS | {"align-items": "start"})

@@ -1,27 +1,16 @@
 """The choices in the head of the page besides the tabs: the top, the language, and Share."""
 
 from app.model.setup import TOYS
-from app.state import asked
 from app.text import LANGUAGES, listed, say
+from app.widgets.forms import one_of
 
 OWN = ""  # a body that has no name
 
 
-def asks(**does):
-    """What a HeadBar asks for. does: {"toy", "language": a function of a valid name, each; "share": a function
-    of nothing}."""
-
-    def one_of(known, act):
-        def chosen(name):
-            if name not in known:
-                raise asked.Unasked(name)
-            act(name)
-
-        return chosen
-
-    names = {"toy": TOYS, "language": LANGUAGES}
-    known = {each: one_of(names[each], act) for each, act in does.items() if each in names}
-    return known | {"share": lambda value: does["share"]()}
+def asks(toy, language, share):
+    """What a HeadBar asks for. toy, language: functions of a valid name; share: a function of nothing."""
+    return {"toy": lambda name: toy(one_of(TOYS)(name)), "language": lambda name: language(one_of(LANGUAGES)(name)),
+            "share": lambda value: share()}  # fmt: skip
 
 
 def tops(toy):

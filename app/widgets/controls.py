@@ -10,35 +10,16 @@ from app.model.regimes import NAMES
 from app.model.region import PAPER
 from app.text import listed, say, written
 from app.widgets.numbers import Numbers, choice, dock, heading, number, tidy, words
-from app.widgets.typeset import typeset
+from app.widgets.typeset import LETTERS, typeset
 from tippe_core import Top
 
-SYMBOLS = {
-    "K_J": "<i>K</i><sub>J</sub>",
-    "K_R": "<i>K</i><sub>R</sub>",
-    "mu_s": "<i>μ</i><sub>s</sub>",
-    "energy": "<i>E</i>",
-    "a": "<i>a</i>",
-    "I1": "<i>I</i><sub>1</sub>",
-    "I3": "<i>I</i><sub>3</sub>",
-    "theta": "<i>θ</i>",
-    "theta_dot": "<i>θ̇</i>",
-    "omega2": "<i>ω</i><sub>2′</sub>",
-    "omega3": "<i>ω</i><sub>3</sub>",
-    "spin": "<i>ω</i><sub>3</sub>",
-    "tilt": "<i>θ</i>",
-    "slip": "<i>u</i>",
-    "seconds": "<i>t</i>",
-    "mu": "<i>μ</i>",
-    "eps": "<i>ε</i>",
-    "patch": "<i>ρ</i>",
-    "gamma": "<i>γ</i>",
-    "normal": "<i>F</i><sub>z</sub>",
+SYMBOLS = {name: LETTERS[name] for name in ("K_J", "K_R", "mu_s", "I1", "I3", "theta", "theta_dot", "omega2", "mu")} | {
+    "energy": "<i>E</i>", "a": "<i>a</i>", "omega3": LETTERS["omega_3"], "spin": LETTERS["omega_3"],
+    "tilt": "<i>θ</i>", "angle": "<i>θ</i>", "slip": "<i>u</i>", "seconds": "<i>t</i>", "time": "<i>t</i>",
+    "eps": "<i>ε</i>", "patch": "<i>ρ</i>", "gamma": "<i>γ</i>", "normal": LETTERS["F_z"],
     "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
     "height": "<i>f</i><sub>1</sub><sup>2</sup>&hairsp;<i>θ̇</i>&hairsp;<sup>2</sup>",
-    "angle": "<i>θ</i>",
-    "time": "<i>t</i>",
-}
+}  # fmt: skip
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
 # Lines of words below, reserved so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}

@@ -10,6 +10,7 @@ import param
 from app.bundle import Bundled
 from app.model.runs import Full, Stopped, to_session
 from app.text import say
+from tippe_core import TopError
 
 log = logging.getLogger("tippe")
 PAGES = WeakKeyDictionary()  # document -> a weak reference to its Failure, because that refers to the document
@@ -59,6 +60,21 @@ def ended(error):
     if isinstance(error, Full):
         return say("main.queue.full", count=error.args[0])
     return say("main.queue.stopped" if isinstance(error, Stopped) else "main.failed")
+
+
+def unless_stopped(take, refuse=None, refused=TopError):
+    """A function for the result of a Run: if there is one, take() is called with it, and refuse(), if given, with an
+    error of the kind `refused`. Other errors are raised, and so are shown."""
+
+    def done(result):
+        if not isinstance(result, Exception):
+            take(result)
+        elif refuse and isinstance(result, refused):
+            refuse(result)
+        elif not isinstance(result, Stopped):
+            raise result
+
+    return done
 
 
 def failure():

@@ -1,4 +1,4 @@
-"""What a hand sets or presses, beside choices and number controls: buttons, entries, menus, checks, a stretch with two
+"""What a hand sets or presses, beside number controls: buttons, entries, choices, menus, checks, a stretch with two
 ends, a file of text, and a fold. Each is drawn by native elements of the browser, in the style of the Lab."""
 
 import math
@@ -9,8 +9,35 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import asked
+from app.text import say
 
 MOST_CLICKS = 10  # in one message
+
+
+def hear(component, **does):
+    """Calls does[name] with each event of what the browser sends as this property; it arrives without delay."""
+    at_once(component, *does)
+    for name, act in does.items():
+        component.param.watch(asked.heard(act), name)
+
+
+def one_of(known):
+    """A reader for asked.parts: one of these texts."""
+
+    def read(value):
+        if isinstance(value, str) and value in known:
+            return value
+        raise asked.Unasked(f"not offered: {value!r:.40}")
+
+    return read
+
+
+def typed_number(text):
+    """The number that was typed; raises ValueError."""
+    value = float(text.replace("−", "-").replace(",", "."))
+    if not math.isfinite(value):
+        raise ValueError
+    return value
 
 
 class Part(Bundled):
@@ -18,6 +45,7 @@ class Part(Bundled):
 
     label = param.String(default="", doc="Its name, in words.")
     SENDS = ()  # what the browser sets
+    _is_put = False
 
     def __init__(self, label="", **params):
         super().__init__(label=label, **({"margin": 0} | params))
@@ -30,10 +58,19 @@ class Part(Bundled):
         """
 
         def heard(event):
-            with pn.io.hold():
-                act(event)
+            if not self._is_put:
+                with pn.io.hold():
+                    act(event)
 
         self.param.watch(heard, name)
+
+    def put(self, **values):
+        """Sets values without a call of the functions of on(): no hand has set them."""
+        self._is_put = True
+        try:
+            self.param.update(**values)
+        finally:
+            self._is_put = False
 
 
 class Button(Part):
@@ -77,6 +114,35 @@ class Field(Part):
     def refuse(self, why="", nearest="", back=""):
         """why: plain text; empty: nothing is wrong."""
         self.wrong = [why, nearest, back] if why else []
+
+    def number(self, key, back="", **named):
+        """The number that was typed. If it is none, says so, in the words under this key, and raises ValueError."""
+        try:
+            found = typed_number(self.value)
+        except ValueError:
+            self.refuse(say(key, text=self.value, **named), back=back)
+            raise
+        self.refuse()
+        return found
+
+
+class Choice(Part):
+    """One of several is chosen, by buttons; what stands for each is a text or a whole number."""
+
+    options = param.Dict(default={}, doc="{word on the button: value}.")
+    value = param.Parameter(doc="One of the values.")
+    SENDS = ("value",)
+
+    def __init__(self, options, value, label="", **params):
+        super().__init__(label, options=options, value=value, **params)
+
+    @classmethod
+    def of(cls, owner, name, options, **layout):
+        """The choice of a parameter, which it follows."""
+        made = cls(options, getattr(owner, name), **layout)
+        made.on("value", lambda event: setattr(owner, name, event.new))
+        owner.param.watch(lambda event: setattr(made, "value", event.new), name)
+        return made
 
 
 class Menu(Part):

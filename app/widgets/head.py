@@ -7,10 +7,10 @@ The browser answers a click on a tab by showing the place of its room; Python th
 import panel as pn
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import asked
 from app.text import LANGUAGES, listed, say, spoken
+from app.widgets.forms import hear, one_of
 
 
 class Head(Bundled):
@@ -32,31 +32,24 @@ class HeadBar:
         self._toy, self._toys, self._shares = "", [], False
         steps = {"undo": lambda value: url_state.undo(), "redo": lambda value: url_state.redo()}
         switches = {name: lambda value, name=name: setattr(look, name, bool(value)) for name in self.SWITCHES}
-        goes = {name: lambda value, name=name: self._go(name, value) for name in ("room", "level")}
+        goes = {name: lambda value, name=name: setattr(rooms, name, one_of(rooms.param[name].objects)(value))
+                for name in ("room", "level")}  # fmt: skip
         self._does = steps | switches | goes | does
         self.view = Head(margin=0, sizing_mode="stretch_width")
-        at_once(self.view, "asked")
-        self.view.param.watch(asked.heard(self._heard), "asked")
+        hear(self.view, asked=self._heard)
         rooms.param.watch(self._say, ["room", "level"])
         url_state.param.watch(self._say, ["can_undo", "can_redo"])
         look.param.watch(self._say, list(self.SWITCHES))
         self._say()
 
     def _heard(self, event):
-        count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
-        if name not in self._does:
-            raise asked.Unasked(name)
+        count, name, value = asked.parts(event.new, asked.number, one_of(self._does), asked.anything)
         self._answered = int(count)
         with pn.io.hold():
             try:
                 self._does[name](value)
             finally:
                 self._say()  # confirms that it was answered
-
-    def _go(self, name, value):
-        if value not in self._rooms.param[name].objects:
-            raise asked.Unasked(value)
-        setattr(self._rooms, name, value)
 
     def tops(self, chosen, known):
         """Sets the tops that can be chosen, as [name, words], and the present one; "" if it is none of them."""

@@ -6,10 +6,10 @@ import math
 
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import asked
 from app.text import say, written
+from app.widgets.forms import hear
 
 
 class NumberControls(Bundled):
@@ -64,14 +64,6 @@ def tidy(value):
     return written(value, ".6g")
 
 
-def typed_number(text):
-    """The number that was typed; raises ValueError."""
-    value = float(text.replace("−", "-").replace(",", "."))
-    if not math.isfinite(value):
-        raise ValueError
-    return value
-
-
 class Numbers:
     """A group of inputs, `view`. ask: called with the name of one, the requested value, and whether it was typed."""
 
@@ -80,8 +72,7 @@ class Numbers:
         self._wrong = {}  # {name: text that was typed and is not a number}
         self.view = NumberControls(**({"sizing_mode": "stretch_width", "margin": 0} | layout))
         self.lay_out(parts)
-        at_once(self.view, "asked")
-        self.view.param.watch(asked.heard(self._asked), "asked")
+        hear(self.view, asked=self._asked)
 
     def lay_out(self, parts):
         """Replaces the inputs; show() is to follow."""

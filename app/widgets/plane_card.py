@@ -6,9 +6,11 @@ import panel as pn
 
 from app.borrowed import at_once
 from app.model.roll.slipping import slipping
-from app.model.runs import LATER, Run, Runs, Stopped
+from app.model.runs import LATER, Run, Runs
 from app.model.start import DEFAULTS, GIVEN
 from app.state import asked
+from app.widgets.failure import unless_stopped
+from app.widgets.forms import one_of
 from app.widgets.plane_view import PlaneView
 from tippe_core import Top, TruncatedSphere
 
@@ -25,14 +27,8 @@ class PlaneCard:
         at_once(self.plane, "hand", "pressed")
         self.plane.param.watch(asked.heard(self._on_road), "pressed")
 
-    @property
-    def content(self):
-        return [self.plane]
-
     def _on_road(self, event):
-        _, road = asked.parts(event.new, asked.number, asked.text)
-        if road not in self._roads:
-            raise asked.Unasked("not a button")
+        _, road = asked.parts(event.new, asked.number, one_of(self._roads))
         with pn.io.hold():
             self._roads[road]()
 
@@ -42,13 +38,11 @@ class PlaneCard:
     def show_path(self, scene):
         self._trajectory = scene.rolling
         # takes as long as ten moves, so not in the thread that answers everybody
-        self._runs.begin(Run(lambda run: slipping(scene), partial(self._show_slipping, scene)), "slipping", LATER)
+        done = unless_stopped(partial(self._show_slipping, scene))
+        self._runs.begin(Run(lambda run: slipping(scene), done), "slipping", LATER)
 
     def _show_slipping(self, scene, path):
-        if isinstance(path, Exception):
-            if not isinstance(path, Stopped):
-                raise path
-        elif scene.rolling is self._trajectory:
+        if scene.rolling is self._trajectory:
             with pn.io.hold():
                 self.plane.show_slipping(path, scene)
 

@@ -16,6 +16,10 @@ LIMITED_BY = ("slip", "lift-off", "no motion", "nothing")
 ROWS = 128  # of one nutation, for the bead
 SHORT = 0.06  # of the theta axis: a shorter tieline is also shown enlarged
 
+PLACE = [f"{SYMBOLS['K_J']} = {{K_J}} {SPIN}", f"{SYMBOLS['angle']} = {{theta}} rad = {{degrees}}°",
+         f"{SYMBOLS['energy']} = {{E}} <i>MgR</i>", f"{SYMBOLS['ratio']} = {{ratio}}", "<b>{verdict}</b>"]  # fmt: skip
+"""The readings at a point, as HTML; the browser fills in the numbers."""
+
 
 class PlaneView(Bundled):
     """The figure, which is grabbed in the browser: the bead moves the clock, everything else is requested by `hand`.
@@ -43,15 +47,14 @@ class PlaneView(Bundled):
     path = param.Bytes(default=b"", doc="(n, 5) theta, low, high, K_J, K_R of a Slipping; empty if none is shown.")
     clock = param.String(default="lab", constant=True, doc="The name of the clock that moves the bead.")
     hand = param.List(
-        default=[],
-        doc="[grip, theta, K_J] of a hand, the browser writes it; grip: as of app.model.hands.pulled.",
+        default=[], doc="[grip, theta, K_J] of a hand, the browser writes it; grip: as of app.model.hands.pulled."
     )
     pressed = param.List(default=[], doc="[count, road] of a button, the browser writes it.")
 
     @classmethod
     def says(cls, language=None):
         words = listed("roll.plane", language) | {"slips": listed("roll.slips", language)}
-        words |= {"ways": listed("regimes.way", language), "limited_by": LIMITED_BY, "place": place_words()}
+        words |= {"ways": listed("regimes.way", language), "limited_by": LIMITED_BY, "place": "<br>".join(PLACE)}
         words |= {"roads": listed("roll.roads", language), "near": listed("roll.near", language)["says"]}
         return super().says(language) | words | {
             "figure": listed("roll.figures", language)["plane"],
@@ -119,15 +122,3 @@ def _nutation(scene):
     count = min(int(np.ceil(scene.rolling.period / (t[1] - t[0]))) + 1, len(t))
     every = -(-count // ROWS)
     return pack(np.column_stack([t[:count:every], theta[:count:every]]))
-
-
-def place_words():
-    """The readings at a point, as HTML; the browser fills in the numbers."""
-    numbers = {
-        "K_J": f"{{K_J}} {SPIN}",
-        "angle": "{theta} rad = {degrees}°",
-        "energy": "{E} <i>MgR</i>",
-        "ratio": "{ratio}",
-    }
-    rows = [f"{SYMBOLS[name]} = {text}" for name, text in numbers.items()]
-    return "<br>".join([*rows, "<b>{verdict}</b>"])

@@ -6,6 +6,7 @@ the line at the time of the clock) is on Bokeh's overlay level, which is repaint
 
 from pathlib import Path
 
+import panel as pn
 from bokeh.models import (
     AllIndices,
     AllLabels,
@@ -14,6 +15,7 @@ from bokeh.models import (
     CustomJS,
     CustomJSHover,
     CustomJSTickFormatter,
+    Span,
 )
 from bokeh.plotting import figure
 
@@ -27,6 +29,8 @@ CLICKS, DRAG = ("tap", "doubletap"), ("panstart", "pan", "panend")
 well."""
 TICKS = Path(__file__).parents[1].joinpath("ticks.js").read_text(encoding="utf-8")
 GRID, PAPER = "#e7ebef", "#ffffff"
+LETTERS = {f"{part}_text_{name}": value for part in ("major_label", "axis_label")
+           for name, value in (("color", INK), ("font_size", "12px"), ("font", FAMILY))}  # fmt: skip
 
 
 def in_language(basic):
@@ -41,39 +45,35 @@ def decimals():
     )
 
 
-def plain(**options):
-    """A figure without frame and tools, in the page's own type; using it sends nothing to the server."""
-    fig = figure(
-        sizing_mode="stretch_both",
-        title=None,
-        toolbar_location=None,
-        tools="",
-        outline_line_color=None,
-        min_border=4,
-        background_fill_alpha=0,
-        border_fill_alpha=0,
-        lod_threshold=None,
-        **options,
-    )
+def plain(label="", height=None, **options):
+    """A figure without frame and tools, in the page's own type; using it sends nothing to the server. label: what it
+    shows, for screen readers, if that is not stored under its name; height: px, if that is not that of its place."""
+    size = {"sizing_mode": "stretch_width", "height": height} if height else {"sizing_mode": "stretch_both"}
+    fig = figure(title=None, toolbar_location=None, tools="", outline_line_color=None, min_border=4,
+                 background_fill_alpha=0, border_fill_alpha=0, lod_threshold=None, **size, **options)  # fmt: skip
     fig.grid.grid_line_color = GRID
-    fig.axis.axis_line_color = fig.axis.major_tick_line_color = FAINT
-    fig.axis.minor_tick_line_color = None
-    fig.axis.major_label_text_color = INK
-    fig.axis.major_label_text_font_size = "12px"
-    fig.axis.axis_label_text_color = INK
-    fig.axis.axis_label_text_font_size = "12px"
-    fig.axis.axis_label_text_font_style = "normal"
-    fig.axis.major_label_text_font = fig.axis.axis_label_text_font = FAMILY
-    fig.axis.major_tick_in = 0
-    fig.axis.major_label_policy = AllLabels()  # the same object for both
-    if decimal_point() != ".":
-        for axis in fig.axis:
-            if isinstance(axis.formatter, BasicTickFormatter):
-                axis.formatter = in_language(axis.formatter)
-    if fig.name:
-        label = say(f"roll.figures.{fig.name}")
+    all_labels = AllLabels()  # the same object for both
+    for axis in fig.axis:
+        axis.update(axis_line_color=FAINT, major_tick_line_color=FAINT, minor_tick_line_color=None, major_tick_in=0,
+                    major_label_policy=all_labels, axis_label_text_font_style="normal", **LETTERS)  # fmt: skip
+        if decimal_point() != "." and isinstance(axis.formatter, BasicTickFormatter):
+            axis.formatter = in_language(axis.formatter)
+    if label or fig.name:
+        label = label or say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
+
+
+def padded(low, high):
+    """The range with some margin below and above."""
+    pad = 0.08 * (high - low) or 0.05
+    return {"start": low - pad, "end": high + pad}
+
+
+def pane(fig, **styles):
+    """A figure as a part of the page."""
+    height = {"height": fig.height} if fig.sizing_mode == "stretch_width" else {}
+    return pn.pane.Bokeh(fig, sizing_mode=fig.sizing_mode, margin=0, styles=styles, **height)
 
 
 def on_click(fig, act):
@@ -89,6 +89,13 @@ def on_pointer(fig, act, *more):
     on_click(fig, act)
     for event in (*DRAG, *more):
         fig.js_on_event(event, act)
+
+
+def rule(fig, dimension, location=0, **looks):
+    """Draws a straight line across a figure, "width" or "height", and returns it."""
+    span = Span(dimension=dimension, location=location, **looks)
+    fig.add_layout(span)
+    return span
 
 
 def draw(fig, kind, *xy, source, level="glyph", **looks):

@@ -4,13 +4,13 @@ Each card draws one Portrait at a time. The beads move with the browser's clock,
 """
 
 import numpy as np
-from bokeh.models import ColumnDataSource, DataRange1d, Line, MultiLine, Patch, Range1d, Scatter, Span
+from bokeh.models import ColumnDataSource, Line, MultiLine, Patch, Scatter
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.roll import portraits
 from app.text import say
-from app.widgets.plots import PAPER, draw, on_pointer, plain
+from app.widgets.plots import PAPER, draw, on_pointer, padded, plain, rule
 
 POINTS_OF_A_TRACK = 480  # on a screen
 
@@ -20,32 +20,27 @@ class Portrait:
     nutation."""
 
     name = ""  # in roll.toml, and the name of the figure
+    colour = COLOURS["theta"]
     whole = False
-    aspect = None
+    aspect = False  # whether both axes have the same scale
 
-    def __init__(self, colour):
-        ranges = {"x_range": Range1d(0, 1), "y_range": Range1d(0, 1)}
-        if self.aspect:
-            ranges = {"x_range": DataRange1d(), "y_range": DataRange1d(), "match_aspect": True}
+    def __init__(self):
+        ranges = {"match_aspect": True} if self.aspect else {"x_range": (0, 1), "y_range": (0, 1)}
         self.figure = fig = plain(name=self.name, **ranges)
         self.curve = ColumnDataSource({"t": np.zeros(2), "x": np.zeros(2), "y": np.zeros(2)})
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
-        self.below()
-        line = draw(fig, Line, "x", "y", source=self.curve, line_color=colour, line_width=2.5)
+        seen = self.below() or ()
+        line = draw(fig, Line, "x", "y", source=self.curve, line_color=self.colour, line_width=2.5)
         draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK,
              line_width=2)  # fmt: skip
         if self.aspect:
-            fig.x_range.renderers = fig.y_range.renderers = [line]
-        self.above()
+            fig.x_range.renderers = fig.y_range.renderers = [line, *seen]
         fig.js_on_change("inner_width", call("followCurve", curve=self.curve, bead=self.bead, fig=fig))
         on_pointer(fig, call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole))
         self._shown = None
 
     def below(self):
-        """Draws what is below the curve."""
-
-    def above(self):
-        """Draws what is above it."""
+        """Draws what is below the curve, and returns what of it is to be seen as a whole."""
 
     def show(self, scene):
         shown = (scene.trajectory, scene.mu_s)
@@ -62,20 +57,15 @@ class Portrait:
     def frame(self, x, y):
         """Sets the ranges so that they contain these values."""
         for range_, values in ((self.figure.x_range, x), (self.figure.y_range, y)):
-            low, high = np.min(values), np.max(values)
-            pad = 0.08 * (high - low) or 0.05
-            range_.update(start=low - pad, end=high + pad)
+            range_.update(**padded(np.min(values), np.max(values)))
 
 
 class Curve(Portrait):
     name = "f"
     axes = "<i>θ</i> (rad)", "<i>θ̇</i><sup>2</sup> (<i>g</i>/<i>R</i>)"
 
-    def __init__(self):
-        super().__init__(COLOURS["theta"])
-
     def below(self):
-        self.figure.add_layout(Span(location=0, dimension="width", line_color=FAINT))
+        rule(self.figure, "width", line_color=FAINT)
 
     def draw(self, scene):
         motion = scene.nutation
@@ -88,11 +78,8 @@ class Phase(Portrait):
     name = "phase"
     axes = "<i>θ</i> (rad)", "<i>θ̇</i> (<i>g</i>/<i>R</i>)<sup>½</sup>"
 
-    def __init__(self):
-        self.levels = ColumnDataSource({"x": [], "y": [], "colour": [], "dash": []})
-        super().__init__(COLOURS["theta"])
-
     def below(self):
+        self.levels = ColumnDataSource({"x": [], "y": [], "colour": [], "dash": []})
         draw(self.figure, MultiLine, xs="x", ys="y", source=self.levels, line_color="colour", line_dash="dash",
              line_width=1.3, line_alpha=0.8)  # fmt: skip
 
@@ -116,18 +103,13 @@ class Phase(Portrait):
 class Potential(Portrait):
     name = "potential"
     axes = "<i>θ</i> (rad)", "<i>E</i> (<i>MgR</i>)"
-
-    def __init__(self):
-        self.potential = ColumnDataSource({"theta": [], "E": []})
-        super().__init__(COLOURS["energy"])
+    colour = COLOURS["energy"]
 
     def below(self):
+        self.potential = ColumnDataSource({"theta": [], "E": []})
         draw(self.figure, Line, "theta", "E", source=self.potential, line_color=INK, line_width=2)
-        marks = {"line_dash": [6, 4], "line_width": 1.5, "dimension": "width"}
-        self.slip = Span(location=0, line_color=COLOURS["friction"], **marks)
-        self.lift = Span(location=0, line_color=COLOURS["normal"], **marks)
-        self.figure.add_layout(self.slip)
-        self.figure.add_layout(self.lift)
+        self.slip, self.lift = (rule(self.figure, "width", line_color=COLOURS[name], line_dash=[6, 4], line_width=1.5)
+                                for name in ("friction", "normal"))  # fmt: skip
 
     def draw(self, scene):
         motion, marks = scene.nutation, scene.marks
@@ -146,13 +128,10 @@ class Track(Portrait):
     name = "track"
     axes = "<i>x</i> (<i>R</i>)", "<i>y</i> (<i>R</i>)"
     whole = True
-    aspect = 1
-
-    def __init__(self):
-        self.circles = ColumnDataSource({"x": [], "y": []})
-        super().__init__(COLOURS["theta"])
+    aspect = True
 
     def below(self):
+        self.circles = ColumnDataSource({"x": [], "y": []})
         draw(self.figure, MultiLine, xs="x", ys="y", source=self.circles, line_color=FAINT, line_dash=[6, 4],
              line_width=1.5)  # fmt: skip
 
@@ -174,19 +153,12 @@ class Ring(Portrait):
     name = "ring"
     whole = True
 
-    def __init__(self):
-        super().__init__(COLOURS["theta"])
-
     @property
     def axes(self):
         return say("roll.portraits.ring.across"), say("roll.portraits.ring.up")
 
     def below(self):
-        self.edges = [
-            Span(location=0, dimension="width", line_color=FAINT, line_dash=[6, 4], line_width=1.5) for _ in range(2)
-        ]
-        for edge in self.edges:
-            self.figure.add_layout(edge)
+        self.edges = [rule(self.figure, "width", line_color=FAINT, line_dash=[6, 4], line_width=1.5) for _ in range(2)]
 
     def draw(self, scene):
         seen = portraits.track(scene, POINTS_OF_A_TRACK)
@@ -199,22 +171,14 @@ class Ring(Portrait):
 class Force(Portrait):
     name = "force"
     axes = "<i>F</i><sub>x</sub>/<i>F</i><sub>z</sub>", "<i>F</i><sub>y</sub>/<i>F</i><sub>z</sub>"
-    aspect = 1
-
-    def __init__(self):
-        self.disc = ColumnDataSource({"x": [], "y": []})
-        super().__init__(COLOURS["friction"])
+    colour = COLOURS["friction"]
+    aspect = True
 
     def below(self):
+        self.disc = ColumnDataSource({"x": [], "y": []})
         self.figure.background_fill_color, self.figure.background_fill_alpha = COLOURS["friction"], 0.12
-        self.edge = draw(self.figure, Patch, "x", "y", source=self.disc, fill_color=PAPER, line_color=INK,
-                         line_dash=[6, 4], line_width=1.5)  # fmt: skip
-
-    def above(self):
-        self.figure.x_range.renderers = self.figure.y_range.renderers = [
-            *self.figure.x_range.renderers,
-            self.edge,
-        ]
+        return [draw(self.figure, Patch, "x", "y", source=self.disc, fill_color=PAPER, line_color=INK,
+                     line_dash=[6, 4], line_width=1.5)]  # fmt: skip
 
     def draw(self, scene):
         self.disc.data = dict(zip("xy", portraits.circle(scene.mu_s), strict=True))

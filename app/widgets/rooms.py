@@ -12,7 +12,7 @@ import param
 from app import turns
 from app.model.runs import connected_to, to_session
 from app.text import say
-from app.widgets.cards import alert, note, words
+from app.widgets.cards import alert, column, note, words
 from app.widgets.failure import after, attempt
 from app.widgets.forms import Button
 
@@ -56,9 +56,7 @@ class Place:
         self._left = None  # when the page looked elsewhere
         self._failed, self._turn, self._document = False, None, pn.state.curdoc
         self._says = words(self._waiting(), margin=AROUND)
-        self.column = pn.Column(
-            self._says, name=f"place-of-{name}", sizing_mode="stretch_width", margin=0, visible=False
-        )
+        self.column = column(self._says, name=f"place-of-{name}", visible=False)
 
     @staticmethod
     def _waiting(before=0):

@@ -39,14 +39,9 @@ def show_surface(surface, scene):
     plane, motion = scene.plane, scene.constants
     if surface.is_new(plane):
         surface.tell(
-            K_J=pack(plane.K_J),
-            theta=pack(plane.theta),
-            heights=pack(plane.height),
-            energy=pack(plane.surface.E),
+            K_J=pack(plane.K_J), theta=pack(plane.theta), heights=pack(plane.height), energy=pack(plane.surface.E),
             verge=pack(np.column_stack([plane.surface.theta_verge, plane.K_J])),
             steady=pack(np.column_stack([plane.lift.theta_steady, plane.K_J])),
-            P=pack([0, plane.pole, plane.pole_height]),
-            theta_max=plane.surface_range[1],
-            limit=plane.limit,
-        )
+            P=pack([0, plane.pole, plane.pole_height]), theta_max=plane.surface_range[1], limit=plane.limit,
+        )  # fmt: skip
     surface.tell(selected=pack([motion.K_J, *scene.turning, scene.regime.max()]), selected_curve=pack(scene.curve))

@@ -3,7 +3,7 @@ clock. A curve has the colour of its quantity; which table it is of is told by i
 
 import numpy as np
 import panel as pn
-from bokeh.models import BoxAnnotation, ColumnDataSource, Line, Range1d, Span, VSpan
+from bokeh.models import BoxAnnotation, ColumnDataSource, Line, Range1d, VSpan
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
@@ -11,7 +11,7 @@ from app.model.lab.tracks import QUANTITIES, Track, tracks
 from app.model.setup import TABLES
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import draw, on_pointer, plain
+from app.widgets.plots import draw, on_pointer, pane, plain, rule
 
 ROWS = {"theta": ("theta",), "omega3": ("omega3",), "normal": ("normal",), "ratio": ("ratio",), "slip": ("slip",),
         "constants": ("E", "K_J", "K_R")}  # fmt: skip
@@ -20,6 +20,7 @@ COLOUR = {"theta": "ink", "omega3": "omega", "normal": "normal", "ratio": "norma
           "K_J": "jellett", "K_R": "routh"}  # fmt: skip
 """{quantity: a name of COLOURS}"""
 DASHES = {"ordinary": [], "rough": [7, 4], "ice": [2, 3]}
+CLOCK = "lab"  # of the browser
 LEFT = 50  # px, left of every time axis
 RISES = 1.4  # how far above the friction of the table its axis goes at least
 
@@ -45,15 +46,14 @@ def key():
 
 
 class TimeFigures:
-    """figures: {name: figure}, of ROWS and those that add() has added. clock: the name of the browser's clock."""
+    """figures: {name: figure}, of ROWS and those that add() has added."""
 
-    def __init__(self, clock="lab"):
-        self._clock, self._unit = clock, ColumnDataSource(tags=[1.0])  # s in one unit of the clock's time
+    def __init__(self):
+        self._unit = ColumnDataSource(tags=[1.0])  # s in one unit of the clock's time
         self._x_range, self._spans, self.figures = Range1d(0, 1), [], {}
         self._events = ColumnDataSource({"t": []})
         names = [prefix + name for name in QUANTITIES for prefix in ("", "t_")]
         self.curves = {table: ColumnDataSource({name: [] for name in names}) for table in TABLES}
-        self._limit = Span(location=1, dimension="width", line_color=INK, line_dash=[6, 4], line_width=1)
         for name, quantities in ROWS.items():
             fig = self.add(name)
             for table, source in self.curves.items():
@@ -61,23 +61,21 @@ class TimeFigures:
                     draw(fig, Line, f"t_{each}", each, source=source, line_color=COLOURS[COLOUR[each]], line_width=1.6,
                          line_dash=DASHES[table])  # fmt: skip
             draw(fig, VSpan, "t", source=self._events, line_color=FAINT, line_dash=[2, 3])
-        self.figures["ratio"].add_layout(self._limit)
+        self._limit = rule(self.figures["ratio"], "width", 1, line_color=INK, line_dash=[6, 4], line_width=1)
         pulls = BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
         self.figures["normal"].add_layout(pulls)
-        followed = {"spans": self._spans, "path": self._unit, "range": self._x_range, "clock": clock}
+        followed = {"spans": self._spans, "path": self._unit, "range": self._x_range, "clock": CLOCK}
         self.figures["theta"].js_on_change("inner_width", call("moveLines", **followed))
 
     def add(self, name):
         """One more figure on the same time axis; the last one shows the times."""
         for fig in self.figures.values():
             fig.xaxis.visible = False
-        fig = self.figures[name] = plain(x_range=self._x_range, y_range=Range1d(0, 1), name=f"times-{name}")
-        fig.min_border_left = LEFT
+        fig = self.figures[name] = plain(x_range=self._x_range, y_range=(0, 1), name=f"times-{name}",
+                                         min_border_left=LEFT)  # fmt: skip
         fig.yaxis.ticker.desired_num_ticks = 3
-        self._spans.append(Span(location=0, dimension="height", level="overlay", line_color=COLOURS["accent"],
-                                line_width=2))  # fmt: skip
-        fig.add_layout(self._spans[-1])
-        on_pointer(fig, call("seekAlong", path=self._unit, clock=self._clock))
+        self._spans.append(rule(fig, "height", level="overlay", line_color=COLOURS["accent"], line_width=2))
+        on_pointer(fig, call("seekAlong", path=self._unit, clock=CLOCK))
         return fig
 
     def show_motions(self, trajectories, watched, scales, *, mu=None, until=np.inf, events=()):
@@ -115,5 +113,4 @@ def row(figures, name, height):
     """A figure with its label at the left, as a Panel object; height: px."""
     said = words(f'<div class="quantity">{label(name)}</div>', width=60, sizing_mode="stretch_height",
                  margin=(6, 0, 0, 0))  # fmt: skip
-    figure = pn.pane.Bokeh(figures.figures[name], sizing_mode="stretch_both", margin=0)
-    return pn.Row(said, figure, sizing_mode="stretch_width", height=height, margin=0)
+    return pn.Row(said, pane(figures.figures[name]), sizing_mode="stretch_width", height=height, margin=0)

@@ -4,6 +4,7 @@ import numpy as np
 import param
 
 from app.bundle import Bundled, pack
+from app.model.playing import Playing
 
 
 def pack_frames(t, quaternion, contact, com, theta, force, omega, momentum, regime):
@@ -26,7 +27,7 @@ def pack_frames(t, quaternion, contact, com, theta, force, omega, momentum, regi
     return np.column_stack((t, quaternion, contact, com, theta, force, omega, momentum, regime)).astype("<f4").tobytes()
 
 
-class Top3D(Bundled):
+class Top3D(Bundled, Playing):
     """The top on its table, with its tracks and arrows, and the bar that plays it.
 
     While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with `{t, index,
@@ -34,6 +35,10 @@ class Top3D(Bundled):
     interval of time, and their events are `tippe:clock:<clock>` and `tippe:seek:<clock>`. `tippe.time(clock)` on the
     window is the present time, and `tippe.photo(wide, clock)` a canvas with the picture, so many pixels wide; without a
     clock, that of the rolling top. All this also holds if the top is drawn flat, without WebGL.
+
+    The browser writes `time` when a person moves it, not while it plays, and `camera`; it starts paused if the visitor
+    prefers reduced motion. show_track, show_trace: the paths of the contact point on the table and on the ball;
+    show_com_path: G and its path; show_cone: the friction cone; the others: the force, omega, and L about G.
     """
 
     SAYS = ("Stage",)
@@ -47,9 +52,6 @@ class Top3D(Bundled):
         default=0.5, bounds=(0, None), doc="Coefficient of static friction: the tangent of the cone's half angle."
     )
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
-    time = param.Number(
-        default=0.0, doc="The cursor. The browser writes it when a person moves it, not while it plays."
-    )
     label = param.String(default="", constant=True, doc="Its name; empty: that of the rolling top.")
     clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
     a = param.Number(
@@ -63,23 +65,7 @@ class Top3D(Bundled):
         doc="[theta, t, grasp] of a hand on the axis, the browser writes it: the tilt it asks for, the time at which "
         "it took hold, and a number that is another one for each grasp.",
     )
-    playing = param.Boolean(
-        default=True, doc="Whether it plays. It starts paused if the visitor prefers reduced motion."
-    )
-    speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is the real top's own speed.")
-    show_track = param.Boolean(default=True, doc="The path of the contact point on the table.")
-    show_trace = param.Boolean(default=True, doc="The path of the contact point on the ball.")
-    show_com_path = param.Boolean(default=True, doc="G and its path.")
-    show_force = param.Boolean(default=True, doc="The table's force on the top.")
-    show_cone = param.Boolean(default=True, doc="The friction cone at the contact.")
-    show_omega = param.Boolean(default=True, doc="The angular velocity.")
-    show_momentum = param.Boolean(default=True, doc="The angular momentum about G.")
-    camera = param.List(
-        default=[],
-        doc="[azimuth, height, distance] of a view that a person chose, in rad and in terms of the first view's; the "
-        "browser writes it; empty: the first view.",
-    )
-    follow = param.Boolean(default=True, doc="Whether the camera follows the top.")
+    speed = param.Number(default=1 / 16, doc="1 is the real top's own speed.")
 
 
 def show_top(top, scene):
@@ -88,18 +74,6 @@ def show_top(top, scene):
         top.mu_s = scene.mu_s
         return
     top.tell(
-        mu_s=scene.mu_s,
-        profile=pack(scene.profile),
-        seconds=scene.scales.time,
-        frames=pack_frames(
-            motion.t,
-            motion.quaternion,
-            motion.contact,
-            motion.com,
-            motion.theta,
-            scene.force,
-            scene.omega,
-            scene.momentum,
-            scene.regime,
-        ),
-    )
+        mu_s=scene.mu_s, profile=pack(scene.profile), seconds=scene.scales.time,
+        frames=pack_frames(motion.t, motion.quaternion, motion.contact, motion.com, motion.theta, scene.force,
+                           scene.omega, scene.momentum, scene.regime))  # fmt: skip

@@ -14,11 +14,10 @@ from app.tabs.build.fields import symbol
 from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
-from app.widgets.cards import alert, flow, note, words
-from app.widgets.choice import Choice
+from app.widgets.cards import alert, column, flow, note, words
 from app.widgets.download import Download
-from app.widgets.forms import Button, Field, Menu, TextFile
-from app.widgets.numbers import Numbers, number, tidy, typed_number
+from app.widgets.forms import Button, Choice, Field, Menu, TextFile
+from app.widgets.numbers import Numbers, number, tidy
 from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
@@ -52,20 +51,14 @@ class Pieces:
         self.put = Button(say("build.pieces.put"), lambda: self._compose(1))
         self.take = Button(say("build.pieces.take"), lambda: self._compose(-1))
         self.undo = Button(say("build.pieces.undo"), builder.take_off)
-        self._view = pn.Column(
-            words(note(say("build.pieces.says"))),
-            flow(self.kind, *self.entries.values(), self.density),
-            flow(self.put, self.take, self.undo),
-            self.words, sizing_mode="stretch_width", margin=0)  # fmt: skip
-
-    @property
-    def view(self):
-        return [self._view]
+        inputs = flow(self.kind, *self.entries.values(), self.density)
+        self.view = column(words(note(say("build.pieces.says"))), inputs, flow(self.put, self.take, self.undo),
+                           self.words)  # fmt: skip
 
     def show(self, shape):
-        self._view.visible, self.density.value = not isinstance(shape, BareSphere), ""
+        self.view.visible, self.density.value = not isinstance(shape, BareSphere), ""
         self.undo.visible = isinstance(shape, Turned) and len(shape.solid.slices) > 1
-        if self._view.visible:
+        if self.view.visible:
             density = getattr(shape, "density", shape.mass / shape.volume)
             # what is removed must be exactly what was added: the number itself, not its displayed digits
             self._exact = density[0] if isinstance(density, tuple) else density
@@ -73,16 +66,12 @@ class Pieces:
         self.words.object = ""
 
     def _compose(self, sign):
-        values = {}
-        for name, entry in (*self.entries.items(), ("density", self.density)):
-            try:
-                values[name] = typed_number(entry.value)
-            except ValueError:
-                which = say(f"build.pieces.names.{name}")
-                good = dict(self.FIELDS).get(name, tidy(self._exact))
-                entry.refuse(say("build.pieces.not_a_number", name=which, text=entry.value), "", good)
-                return
-            entry.refuse()
+        good, key = dict(self.FIELDS) | {"density": tidy(self._exact)}, "build.pieces.not_a_number"
+        try:
+            values = {name: entry.number(key, good[name], name=say(f"build.pieces.names.{name}"))
+                      for name, entry in (*self.entries.items(), ("density", self.density))}  # fmt: skip
+        except ValueError:
+            return
         density = self._exact if self.density.value == tidy(self._exact) else values["density"]
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
 
@@ -91,19 +80,16 @@ class Inside:
     """The choice of what a truncated sphere has inside. choose: called with one of KINDS."""
 
     def __init__(self, choose):
-        self._silent = False
         options = {says: kind for kind, says in listed("build.inside").items()}
         self.switch = Choice(options, "solid", say("build.bench.inside"))
-        self.switch.on("value", lambda event: None if self._silent else choose(event.new))
+        self.switch.on("value", lambda event: choose(event.new))
         self.steel = words(note(say("build.bench.steel")), sizing_mode=None)
-        self.view = pn.Column(flow(self.switch, self.steel), sizing_mode="stretch_width", margin=0)
+        self.view = column(flow(self.switch, self.steel))
 
     def show(self, shape):
         kind = inside(shape)
-        self._silent = True
-        self.view.visible, self.switch.value = bool(kind), kind or "solid"
-        self._silent = False
-        self.steel.visible = kind in ("disc", "both")
+        self.switch.put(value=kind or "solid")
+        self.view.visible, self.steel.visible = bool(kind), kind in ("disc", "both")
 
 
 class Build:
@@ -112,18 +98,18 @@ class Build:
     def __init__(self, builder, runs=None):
         runs = runs or Runs()
         self.builder, self._tried = builder, {}  # the last requested value of a dimension, in its unit
-        self._dimensions, self._shown, self._silent = {}, None, False
+        self._dimensions, self._shown = {}, None
         self.section = Section(self._drag, self._tapped_twice)
         self.numbers, self.derived, self.file_words = words(), words(), words()
         self.source = words()
-        self.families = self._choice("family", builder.choose_family)
+        self.families = Menu(say("build.bench.family"))
+        self.families.on("value", lambda event: event.new and builder.choose_family(event.new))
         self.material = Material(lambda density: builder.set("density", density))
         self.inside = Inside(builder.fill)
         self.dimensions = Numbers([], self._pull, margin=(6, 0))
         self.parting = self._button("parts", builder.part_densities)
         buttons = flow(self._button("add", builder.add_point), self._button("remove", self._remove), self.parting)
-        self.points = pn.Column(words(note(say("build.bench.twice"))), buttons, sizing_mode="stretch_width",
-                                margin=0)  # fmt: skip
+        self.points = column(words(note(say("build.bench.twice"))), buttons)
         self.pieces = Pieces(builder)
         self.stl = Download(runs, lambda: (builder.stl() or b"",), bytes, label=say("build.bench.stl"),
                             filename="top.stl", margin=0)  # fmt: skip
@@ -132,9 +118,8 @@ class Build:
         self.file = TextFile(say("build.bench.load"), builder.load, partial(builder.refuse_file, LARGEST_FILE),
                              accept=".json", most=LARGEST_FILE)  # fmt: skip
         self.back = self._button("back", builder.attach)
-        self.parted = pn.Column(
-            words(f'<div class="alert">{say("build.bench.parted")}</div>'), self.back,
-            visible=False, sizing_mode="stretch_width", margin=0)  # fmt: skip
+        parted = words(f'<div class="alert">{say("build.bench.parted")}</div>')
+        self.parted = column(parted, self.back, visible=False)
         builder.param.watch(lambda event: self._show(event.new), "draft")
         self._show(builder.draft)
 
@@ -146,11 +131,6 @@ class Build:
         """A request for a dimension, in its unit."""
         self._tried = {name: value}
         self.builder.set(name, value / self._dimensions[name].factor)
-
-    def _choice(self, key, choose):
-        select = Menu(say(f"build.bench.{key}"))
-        select.on("value", lambda event: None if self._silent or not event.new else choose(event.new))
-        return select
 
     @staticmethod
     def _button(key, click):
@@ -173,22 +153,14 @@ class Build:
     def section_view(self):
         """What kind of body, its section, the results, and whether the explorer's numbers are still those of the
         body."""
-        drawn = self.section.view
-        return [flow(self.families, self.material.view), drawn, self.numbers, self.derived, self.parted]
+        kinds = flow(self.families, self.material.view)
+        return [kinds, self.section.view, self.numbers, self.derived, self.parted]
 
     @property
     def bench_view(self):
         """The inputs."""
-        files = flow(self.saved, self.file, self.stl)
-        return [
-            self.inside.view,
-            self.dimensions.view,
-            self.points,
-            *self.pieces.view,
-            files,
-            self.file_words,
-            self.source,
-        ]
+        return [self.inside.view, self.dimensions.view, self.points, self.pieces.view,
+                flow(self.saved, self.file, self.stl), self.file_words, self.source]  # fmt: skip
 
     def _show(self, draft):
         with pn.io.hold():
@@ -215,12 +187,10 @@ class Build:
         self.inside.show(draft.shape)
         self.material.show(draft.shape)
         self._show_dimensions(draft)
-        self._silent = True
         called = listed("build.families")  # the chosen one cannot be chosen again: a changed body has its own
         own = {} if draft.name else {say("build.bench.changed", family=called[draft.family]): OWN}
         families = {called[family]: family for family, _ in (FAMILIES[type(preset.shape)] for preset in PRESETS)}
-        self.families.param.update(options=own | families, value=draft.family if draft.name else OWN)
-        self._silent = False
+        self.families.put(options=own | families, value=draft.family if draft.name else OWN)
         self.stl.disabled = isinstance(draft.shape, BareSphere)
 
     def _show_dimensions(self, draft):
@@ -231,12 +201,8 @@ class Build:
         wrong = {name: typeset(said) for name, said in draft.messages.items() if name in dimensions}
         for name, value in self._tried.items():  # what cannot be any more is said where the hand was
             if wrong and name in dimensions and name not in wrong:
-                said = {
-                    "name": dimensions[name].words,
-                    "unit": dimensions[name].unit,
-                    "why": next(iter(wrong.values())),
-                }
-                wrong = {name: say("build.bench.with_it", value=tidy(value), **said)}
+                wrong = {name: say("build.bench.with_it", value=tidy(value), name=dimensions[name].words,
+                                   unit=dimensions[name].unit, why=next(iter(wrong.values())))}  # fmt: skip
         tried = {name: value for name, value in self._tried.items() if name in wrong}
         near = {name: nearest(shape, dimensions[name], value) for name, value in tried.items()}
         self.dimensions.show(values, tracks, messages=wrong, refused=tried,

@@ -1,12 +1,11 @@
 """The top that is being built, as it stands, with its mass and size, and what becomes of it."""
 
 import numpy as np
-import panel as pn
 
 from app.bundle import pack
 from app.tabs.build.verdict import VerdictWords
 from app.text import say, written
-from app.widgets.cards import words
+from app.widgets.cards import column, words
 from app.widgets.forms import Button
 from app.widgets.top3d import Top3D, pack_frames
 
@@ -36,8 +35,7 @@ class Built:
     @property
     def view(self):
         """The stage, and the verdict."""
-        stage = pn.Column(self.top, self.size, self.spin, sizing_mode="stretch_width", margin=0,
-                          styles={"position": "relative", "overflow": "hidden"})  # fmt: skip
+        stage = column(self.top, self.size, self.spin, styles={"position": "relative", "overflow": "hidden"})
         return [stage, self.told.view, self.told.strip]
 
     def show(self, scene):

@@ -11,20 +11,13 @@ class Material:
     """view: a select. choose: called with a density in kg/m^3."""
 
     def __init__(self, choose):
-        self._silent, self._choose = False, choose
         self._known = {say("build.bench.of_density", name=says, density=MATERIALS[name]): name
                        for name, says in listed("build.materials").items()}  # fmt: skip
         self.view = Menu(say("build.bench.material"), options=self._known, value="lime")
-        self.view.on("value", self._chosen)
-
-    def _chosen(self, event):
-        if not self._silent and event.new:
-            self._choose(MATERIALS[event.new])
+        self.view.on("value", lambda event: event.new and choose(MATERIALS[event.new]))
 
     def show(self, shape):
         density, name = density_of(shape), material(shape)
         other = {} if name or density is None else {say("build.bench.other", density=density): OTHER}
         options = other | self._known
-        self._silent = True
-        self.view.param.update(visible=density is not None, options=options, value=name or next(iter(options.values())))
-        self._silent = False
+        self.view.put(visible=density is not None, options=options, value=name or next(iter(options.values())))

@@ -7,7 +7,7 @@ from app.model.build.dimensions import sentence
 from app.text import listed, say
 from app.widgets.cards import alert, flow, note, words
 from app.widgets.forms import Button, Field
-from app.widgets.numbers import tidy, typed_number
+from app.widgets.numbers import tidy
 from tippe_core import TopError
 
 AGREES = 2.0  # errors
@@ -42,13 +42,10 @@ class RockingFields:
         values = self._drawn()
         for name, unit in self.FIELDS:
             entry = self.entries[name]
-            try:
-                if entry.value.strip() or name in self.TIMED:
-                    values[name] = typed_number(entry.value) * unit
-            except ValueError:
-                entry.refuse(say("build.own.not_a_number", text=entry.value))
-                raise ValueError from None
-            entry.refuse()
+            if entry.value.strip() or name in self.TIMED:
+                values[name] = entry.number("build.own.not_a_number") * unit
+            else:
+                entry.refuse()
         rocking = Rocking(**values)
         return rocking, rocking.a(self.builder.draft.shape)
 

@@ -6,13 +6,13 @@ import json
 import numpy as np
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.bodies import body
 from app.model.build.dimensions import handles, pulled, value_of
 from app.model.build.measures import measures
 from app.state import asked
 from app.text import listed, say
+from app.widgets.forms import hear, one_of
 from app.widgets.numbers import tidy
 from tippe_core import LoadedSphere, TruncatedSphere, Turned
 
@@ -44,25 +44,18 @@ class Section:
         self._pull, self._tap, self._shape = pull, tap, None
         self.last_point = None  # index of the point of a Lathe that was dragged last
         self.view = SectionView(sizing_mode="stretch_width", margin=0)
-        for name, does in (("hand", self._pulled), ("tapped", self._tapped)):
-            at_once(self.view, name)
-            self.view.param.watch(asked.heard(does), name)
+        hear(self.view, hand=self._pulled, tapped=self._tapped)
 
     def _pulled(self, event):
-        name, x, z = asked.parts(event.new, self._handle, asked.number, asked.number)
+        name, x, z = asked.parts(event.new, one_of(handles(self._shape)), asked.number, asked.number)
         if name.startswith("point "):
             self.last_point = int(name[6:])
         self._pull(name, pulled(self._shape, name, x / 1e3, z / 1e3))
 
     def _tapped(self, event):
-        _, name, x, z = asked.parts(event.new, asked.number, asked.text, asked.number, asked.number)
-        self._tap(name and self._handle(name), x / 1e3, z / 1e3)
-
-    def _handle(self, name):
-        """The name of a handle; one of a body that is no longer there is nobody's."""
-        if asked.text(name) in handles(self._shape):
-            return name
-        raise asked.Unasked(f"no handle {name!r:.40}")
+        named = one_of({"", *handles(self._shape)})  # not of a body that is no longer there
+        _, name, x, z = asked.parts(event.new, asked.number, named, asked.number, asked.number)
+        self._tap(name, x / 1e3, z / 1e3)
 
     def show(self, draft):
         shape = self._shape = draft.shape

@@ -4,8 +4,7 @@ import time
 from functools import partial
 
 import numpy as np
-import panel as pn
-from bokeh.models import BasicTickFormatter, ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d, Scatter
+from bokeh.models import BasicTickFormatter, ColorBar, ColumnDataSource, HoverTool, Image, LinearColorMapper, Scatter
 from bokeh.palettes import Viridis256
 
 from app.model.build.builder import thrown
@@ -14,19 +13,13 @@ from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
 from app.widgets.cards import alert, flow, note, progress, words
-from app.widgets.choice import Choice
-from app.widgets.forms import Button, Field
-from app.widgets.numbers import typed_number
-from app.widgets.plots import decimals, draw, in_language, plain
+from app.widgets.forms import Button, Choice, Field
+from app.widgets.plots import decimals, draw, in_language, pane, plain
 from tippe_core import TopError, TruncatedSphere
 
 PICTURE_EVERY = 0.5  # s
 RATIOS = np.linspace(0.6, 1.9, 40)
 SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
-
-
-class Wrong(Exception):
-    """args: the name of an entry, why its text is refused, and the nearest possible one, if there is one."""
 
 
 class Compare:
@@ -38,22 +31,21 @@ class Compare:
 
     def __init__(self, scene, runs=None):
         self._scene, self._runs, self._run = scene, runs or Runs(), None  # the present run, if any
-        self.kind = self._buttons("kinds")
-        self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
+        kinds = {says: kind for kind, says in listed("family.kinds").items()}
+        self.kind = Choice(kinds, "ordinary" if scene.top.a < 0 else "tippe")
         self.kind.on("value", lambda event: self._prefill())
         spoken = {name: say(f"controls.inputs.{name}.spoken") for name, _ in self.FIELDS}
         self.entries = {name: Field(say("family.map.entry", name=spoken[name]), shows=symbol)
                         for name, symbol in self.FIELDS}  # fmt: skip
         self._prefill()
         self.said = words()
-        self.map = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*_sides(RATIOS)), name="map")
-        fig.update(sizing_mode="stretch_width", height=330)
+        bottom, top = _sides(RATIOS)
+        self.map = fig = plain(height=330, x_range=(0, 1), y_range=(bottom, top), name="map")
         colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
         self.shares = ColumnDataSource({"share": [], "x": [], "w": []})
         self.here = ColumnDataSource({"a": [], "ratio": []})
-        bottom, top = _sides(RATIOS)
-        picture = fig.image("share", x="x", dw="w", y=bottom, dh=top - bottom, source=self.shares,
-                            color_mapper=colours)  # fmt: skip
+        picture = draw(fig, Image, "x", bottom, image="share", dw="w", dh=top - bottom, source=self.shares,
+                       color_mapper=colours)  # fmt: skip
         draw(fig, Scatter, "a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
         fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK, major_tick_line_color=FAINT,
                                 formatter=in_language(BasicTickFormatter())), "right")  # fmt: skip
@@ -63,11 +55,6 @@ class Compare:
         self.bar = words(visible=False, margin=(8, 0))
         self.start = Button(say("family.map.start"), self.compute)
         self.cancel = Button(say("family.map.cancel"), lambda: self._run and self._run.stop(), disabled=True)
-
-    @staticmethod
-    def _buttons(table):
-        options = {says: value for value, says in listed(f"family.{table}").items()}
-        return Choice(options, next(iter(options.values())))
 
     @property
     def map_view(self):
@@ -79,9 +66,8 @@ class Compare:
             self.bar,
             self.said,
             words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
-            pn.pane.Bokeh(self.map, sizing_mode="stretch_width", height=330, margin=0),
-            words('<div style="text-align: center"><i>a</i>/<i>R</i></div>'),
-            words(note(say("family.map.here"))),
+            pane(self.map),
+            words('<div style="text-align: center"><i>a</i>/<i>R</i></div>' + note(say("family.map.here"))),
         ]  # fmt: skip
 
     def show(self, scene):
@@ -105,20 +91,16 @@ class Compare:
         return {"x": [low], "w": [high - low]}
 
     def _asked(self):
-        """I1, K_R and mu_s as they were typed; raises Wrong."""
-        values = {}
-        for name, entry in self.entries.items():
-            try:
-                values[name] = typed_number(entry.value)
-            except ValueError:
-                raise Wrong(name, say("family.map.not_a_number", name=name, text=entry.value), "") from None
+        """I1, K_R and mu_s as they were typed; if one cannot be, says so there, and raises ValueError."""
+        values = {name: entry.number("family.map.not_a_number", self._good[name], name=name)
+                  for name, entry in self.entries.items()}  # fmt: skip
         for name, allowed, good, near in (("I1", "I1 > 0 (in MR^2)", values["I1"] > 0, ""),
                                           ("mu_s", "mu_s >= 0", values["mu_s"] >= 0, "0")):  # fmt: skip
             if not good:
-                raise Wrong(name, told(TopError(name, values[name], allowed)), near)
+                error = TopError(name, values[name], allowed)
+                self.entries[name].refuse(told(error), near, self._good[name])
+                raise error
         self._good = {name: entry.value for name, entry in self.entries.items()}
-        for entry in self.entries.values():
-            entry.refuse()
         return values
 
     def compute(self):
@@ -126,9 +108,7 @@ class Compare:
         a = SPANS[self.kind.value]
         try:
             asked = self._asked()
-        except Wrong as error:
-            name, why, near = error.args
-            self.entries[name].refuse(why, near, self._good[name])
+        except ValueError:
             return
         top = self._scene.top
         own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1

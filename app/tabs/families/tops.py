@@ -5,7 +5,6 @@ from functools import partial
 import numpy as np
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.arrival import MU, TILT
 from app.model.build.dimensions import named as spoken_name
@@ -16,7 +15,7 @@ from app.state import asked
 from app.tabs.families.drawings import LETTERS, pair
 from app.text import listed, say
 from app.widgets.cards import alert, flow, note, words
-from app.widgets.forms import Button
+from app.widgets.forms import Button, hear, one_of
 
 HIGH = 620  # px
 POINTS = 80  # of an outline
@@ -42,9 +41,7 @@ class Tops:
     def __init__(self, scene, ask, use, change, runs=None):
         self._scene, self._ask, self._runs = scene, ask, runs or Runs()
         self.map = TopsMap(sizing_mode="stretch_width", height=HIGH, margin=0)
-        for name, does in (("picked", self._picked), ("moved", self._moved)):
-            at_once(self.map, name)
-            self.map.param.watch(asked.heard(does), name)
+        hear(self.map, picked=self._picked, moved=self._moved)
         self.head, self.figures = words(margin=(0, 0, 6, 0)), words(style=LETTERS)
         self.use = Button(say("family.tops.use"), lambda: use(self._top.name), kind="primary")
         self.change = Button(say("family.tops.change"), lambda: change(self._top.name))
@@ -67,11 +64,9 @@ class Tops:
         self._look(known) if known and known is not before else self._put()
 
     def _picked(self, event):
-        _, name = asked.parts(event.new, asked.number, asked.text)
-        found = next((each for each in known_tops() if each.name == name), None)
-        if found is None:
-            raise asked.Unasked(name)
-        self._look(found)
+        known = {top.name: top for top in known_tops()}
+        _, name = asked.parts(event.new, asked.number, one_of(known))
+        self._look(known[name])
 
     def _moved(self, event):
         """Asks for a ball with these numbers and the I1 of the page's top."""

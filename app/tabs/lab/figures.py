@@ -2,7 +2,7 @@
 the map of all tops."""
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Label, MultiLine, Range1d, Scatter, Segment, Text
+from bokeh.models import ColumnDataSource, Label, MultiLine, Patch, Scatter, Segment, Text, VArea
 
 from app.bundle import call
 from app.model.build.dimensions import named
@@ -12,11 +12,10 @@ from app.model.lab.tracks import ledger
 from app.model.lab.wells import wells
 from app.model.setup import OF_LAW
 from app.text import listed, say, written
-from app.widgets.plots import draw, on_click, plain
-from app.widgets.times import TimeFigures
+from app.widgets.plots import draw, on_click, padded, plain
+from app.widgets.times import CLOCK, TimeFigures
 from tippe_core import PRESETS as BODIES
 
-CLOCK = "lab"
 LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
           "height": COLOURS["energy"], "heat": COLOURS["energy_wash"]}  # fmt: skip
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
@@ -29,10 +28,11 @@ class Times(TimeFigures):
     """The quantities of the runs over time, and below them where the energy of the one that is watched is."""
 
     def __init__(self):
-        super().__init__(CLOCK)
+        super().__init__()
         self.energies = ColumnDataSource({name: [] for name in ("t", *LEDGER)})
-        self.add("ledger").varea_stack(list(LEDGER), x="t", color=list(LEDGER.values()), fill_alpha=0.6,
-                                     source=self.energies)  # fmt: skip
+        fig = self.add("ledger")
+        for below, (name, colour) in zip((0, *LEDGER), LEDGER.items(), strict=False):
+            draw(fig, VArea, "t", y1=below, y2=name, source=self.energies, fill_color=colour, fill_alpha=0.6)
 
     def show(self, scene, until=np.inf):
         """Draws the motions of a LabScene, at first up to a time (s)."""
@@ -42,8 +42,9 @@ class Times(TimeFigures):
         events = [t for t, *_ in scene.events]
         self.show_motions(moved, scene.watched, start.scales, mu=limit, until=until, events=events)
         t, parts = ledger(motion, start.scales) if motion is not None else ([], dict.fromkeys(LEDGER, np.empty(0)))
-        self.energies.data = {"t": t} | parts
-        self.figures["ledger"].y_range.update(start=0, end=1.05 * sum(parts.values()).max(initial=0.0) or 1.0)
+        sums = np.cumsum([parts[name] for name in LEDGER], axis=0)  # each up to where the next begins
+        self.energies.data = {"t": t} | dict(zip(LEDGER, sums, strict=True))
+        self.figures["ledger"].y_range.update(start=0, end=1.05 * sums[-1].max(initial=0.0) or 1.0)
 
 
 class Well:
@@ -51,8 +52,8 @@ class Well:
     above. If there are several wells in succession, the one at the time of the clock is shown."""
 
     def __init__(self):
-        self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
-        fig.min_border_left, fig.min_height = 50, 130
+        self.figure = fig = plain(x_range=(-5, 185), y_range=(0, 1), name="planes-well", min_border_left=50,
+                                  min_height=130)  # fmt: skip
         fig.xaxis.ticker = [0, 30, 60, 90, 120, 150, 180]
         self.wells = ColumnDataSource({name: [] for name in ("theta", "V", "alpha", "low", "high")})
         self.steady = ColumnDataSource({name: [] for name in ("theta", "V", "stable", "well", "fill", "alpha")})
@@ -71,23 +72,14 @@ class Well:
         self.none = Label(x=90, y=0, y_offset=60, text=say("planes.keys.no_well"), text_align="center",
                           text_color=COLOURS["friction"], text_font_size="14px", visible=False)  # fmt: skip
         fig.add_layout(self.none)
-        fig.js_on_change(
-            "inner_width",
-            call(
-                "followWell",
-                path=self.path,
-                bead=self.bead,
-                wells=self.wells,
-                steady=self.steady,
-                none=self.none,
-                range=fig.y_range,
-                clock=CLOCK,
-            ),
-        )
+        fig.js_on_change("inner_width", call("followWell", path=self.path, bead=self.bead, wells=self.wells,
+                                             steady=self.steady, none=self.none, range=fig.y_range,
+                                             clock=CLOCK))  # fmt: skip
 
     def show(self, scene):
         found, bead = wells(scene.motions[scene.watched], scene.start)
-        lows, highs = zip(*(padded(well.low, well.high) for well in found), strict=True)
+        spans = [padded(well.low, well.high) for well in found]
+        lows, highs = ([span[end] for span in spans] for end in ("start", "end"))
         self.wells.data = {"theta": [np.degrees(well.theta) for well in found], "V": [well.V for well in found],
                            "alpha": [1.0] + [0.0] * (len(found) - 1), "low": lows, "high": highs}  # fmt: skip
         which = np.repeat(np.arange(len(found)), [len(well.places) for well in found])
@@ -95,19 +87,13 @@ class Well:
                              for part in ("places", "heights", "stable"))  # fmt: skip
         self.steady.data = {"theta": np.degrees(places), "V": V, "stable": stable.astype(float), "well": which,
                             "fill": stable * (which == 0.0), "alpha": (which == 0).astype(float)}  # fmt: skip
-        self.figure.y_range.update(start=lows[0], end=highs[0])
+        self.figure.y_range.update(**spans[0])
         scale = scene.start.scales.time
         self.path.tags = [scale]
         self.path.data = {"t": bead.t * scale, "theta": np.degrees(bead.theta), "V": bead.V, "E": bead.E,
                           "well": bead.which}  # fmt: skip
         if not len(bead.t):
             self.bead.data = {name: [] for name in self.bead.data}
-
-
-def padded(low, high):
-    """The range with some margin below and above."""
-    pad = 0.08 * (high - low) or 0.05
-    return low - pad, high + pad
 
 
 def beside(place, name, taken):
@@ -133,19 +119,21 @@ class Map:
 
     def __init__(self, pick, pick_body):
         self._pick, self._pick_body = pick, pick_body
-        self.figure = fig = plain(x_range=Range1d(*MAP_X), y_range=Range1d(*MAP_Y), name="planes-map")
+        self.figure = fig = plain(x_range=MAP_X, y_range=MAP_Y, name="planes-map")
         (left, right), (low, high) = MAP_X, MAP_Y
         looks = {"never rises": (FAINT, 0.3), "can invert": (COLOURS["friction"], 0.22),
                  "rises part of the way": (COLOURS["jellett"], 0.25), "can stand upright": (COLOURS["normal"], 0.2),
                  "never stands upright": (FAINT, 0.15)}  # fmt: skip
         for group, (x, y) in areas(left, right, low, high).items():
             colour, alpha = looks[group]
-            fig.patch(x, y, fill_color=colour, fill_alpha=alpha, line_color=None, level="underlay")
+            draw(fig, Patch, "x", "y", source=ColumnDataSource({"x": x, "y": y}), level="underlay", fill_color=colour,
+                 fill_alpha=alpha, line_color=None)  # fmt: skip
         places = {"never rises": (0.33, 0.55), "can invert": (0.6, 1.2), "rises part of the way": (0.36, 1.6),
                   "can stand upright": (-0.3, 1.15), "never stands upright": (-0.3, 1.66)}  # fmt: skip
         x, y = zip(*places.values(), strict=True)
-        fig.text(x, y, text=[listed("planes.groups")[group] for group in places], text_align="center",
-                 text_color=INK, text_font_size="12px", text_font_style="italic")  # fmt: skip
+        names = ColumnDataSource({"x": x, "y": y, "name": [listed("planes.groups")[group] for group in places]})
+        draw(fig, Text, "x", "y", text="name", source=names, text_align="center", text_color=INK, text_font_size="12px",
+             text_font_style="italic")  # fmt: skip
         fig.ygrid.visible = fig.xgrid.visible = False
         # a top far to the left is drawn at the edge, with its position beside its name
         self.known, marks, taken = {}, [], []

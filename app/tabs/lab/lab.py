@@ -10,7 +10,6 @@ from functools import partial
 
 import panel as pn
 
-from app.borrowed import at_once
 from app.bundle import pack
 from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
 from app.model.inputs import INPUTS
@@ -27,6 +26,7 @@ from app.tabs.lab.words import carried_words, notes, trace_words
 from app.text import listed, say, speaking, spoken
 from app.widgets.controls import valid
 from app.widgets.failure import after
+from app.widgets.forms import hear, one_of
 from app.widgets.rest import Rest
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
@@ -104,8 +104,7 @@ class LabTab:
         self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self._rolls = ""
         self.view = LabView(sizing_mode="stretch_width", margin=0)
-        at_once(self.view, "asked")
-        self.view.param.watch(asked.heard(self._heard), "asked")
+        hear(self.view, asked=self._heard)
         lab.param.watch(self._changed, ["scene", "ends", "busy"])
         self.view.param.watch(self._opened, "level")
         self.show()
@@ -130,9 +129,7 @@ class LabTab:
         elif name == "stop":
             self._lab.stop()
         elif name == "example":
-            if asked.text(value) not in EXAMPLES:
-                raise asked.Unasked(value)
-            self._lab.ask(**EXAMPLES[value])
+            self._lab.ask(**EXAMPLES[one_of(EXAMPLES)(value)])
         elif name == "pushes":
             self._push(asked.text(value))
         elif name in Lab.INPUTS or name in dimensions(self._lab.explorer.toy):
@@ -217,25 +214,20 @@ class LabTab:
         toy = start.toy
         messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
         dims = dimensions(toy)
+        sizes_of = {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()}
+        rolls = "" if self.view.level == LEVELS[0] else spelled(self._rolls)
         return {
             "toy": toy if isinstance(toy, str) else "",
             "values": {name: lab.value(name) for name in SLIDERS} | sizes(toy),
-            "sliders": SLIDERS
-            | {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()},
-            "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
-            "messages": messages,
-            "law": self._law(start.law),
-            "friction": [start.law, start.landing, start.stem],
+            "sliders": SLIDERS | sizes_of, "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
+            "law": self._law(start.law), "friction": [start.law, start.landing, start.stem], "messages": messages,
             "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
-            "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), self._old_rolling()),
-            "was": self._differ(scene.start, asked),
-            "wants": self._differ(asked, scene.start),
+            "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), rolls),
+            "was": self._differ(scene.start, asked), "wants": self._differ(asked, scene.start),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
-            "answered": self._answered,
-            "busy": lab.busy,
-            "reached": lab.reached,
-        }
+            "answered": self._answered, "busy": lab.busy, "reached": lab.reached,
+        }  # fmt: skip
 
     def _asked(self, scene):
         """The start that is asked for; the one that is shown if no body has these inertias."""
@@ -244,31 +236,26 @@ class LabTab:
         except TopError:
             return scene.start
 
-    def _old_rolling(self):
-        return "" if self.view.level == LEVELS[0] else spelled(self._rolls)
-
     def _told(self, scene):
         view, start, slides = listed("lab_view.view"), scene.start, scene.table in ("ordinary", "three")
         law, numbers = start.law, [name for name in OF_LAW[start.law] if name != "mu"]
         if self.view.level != LEVELS[0] and start.rolling is None:
             numbers.append("slip")
         said_of, ordinary = inputs(), scene.motions["ordinary"]
-        headline, why = scene.said
+        (headline, why), dims, toy = scene.said, dimensions(scene.toy), [repr(scene.toy), say("main.own")]
+        if isinstance(scene.toy, str):
+            toy = [scene.toy, listed("build.presets")[scene.toy]["name"]]
         return {
             "table": scene.table,
             "rubs": [[name, said["typed"], said["unit"]] for name in numbers for said in (said_of[name],)] * slides,
             "of": {
                 "law": [law, f"{view['law']}: {listed('planes.law')[law]}", f"{view['law']}:"],
                 **{name: [getattr(start, name), self._named(start, name)] for name in inputs_of(law)},
-                "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
-                if isinstance(scene.toy, str)
-                else [repr(scene.toy), say("main.own")],
+                "toy": toy,
                 "pushes": [Pushes.text(start.pushes), push_words(start.pushes), view["push"]],
                 "table": [scene.table, f"{view['table']} {view['tables'][scene.table]}", view["table"]],
-                **{
-                    name: [size, self._sized(dimensions(scene.toy)[name], size), _word(dimensions(scene.toy)[name])]
-                    for name, size in sizes(scene.toy).items()
-                },
+                **{name: [size, self._sized(dims[name], size), _word(dims[name])]
+                   for name, size in sizes(scene.toy).items()},
             },
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
@@ -278,7 +265,7 @@ class LabTab:
             "R": 1e3 * start.scales.R,
             "impulse": start.impulse,
             "whole": scene.whole,
-        }
+        }  # fmt: skip
 
     @staticmethod
     def _sized(dimension, size):

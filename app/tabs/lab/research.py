@@ -10,16 +10,18 @@ import param
 from app.model.colours import COLOURS
 from app.model.lab.moments import moments
 from app.model.lab.nudged import hits, nudged
-from app.model.runs import LATER, Run, Stopped
+from app.model.runs import LATER, Run
 from app.state import asked
 from app.state.names import PANELS
 from app.tabs.lab.figures import LEDGER, Map, Times, Well
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import ball_words, run_words, scatter_words, table_words
 from app.text import say, written
-from app.widgets.cards import note, swatch, words
-from app.widgets.choice import Choice
+from app.widgets.cards import column, note, swatch, words
+from app.widgets.failure import unless_stopped
+from app.widgets.forms import Choice
 from app.widgets.moments import Moments
+from app.widgets.plots import pane
 from app.widgets.times import ROWS, key, row
 
 ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
@@ -53,13 +55,11 @@ class Research(param.Parameterized):
         self._made, self._drawn, self._open = {}, {}, False
         self._switch = Choice({say(f"research.panels.{name}"): name for name in PANELS}, PANELS[0], margin=(0, 0, 4, 0))
         self._switch.param.watch(self._chosen, "value")
-        self._places = {
-            name: pn.Column(sizing_mode="stretch_width", margin=0, visible=False, styles=WHOLE) for name in PANELS
-        }
+        self._places = {name: column(visible=False, styles=WHOLE) for name in PANELS}
         self.rolling = Rolling(scheduler, runs, lambda: lab.ask(table="ordinary"))
         self._note = words(note(say("research.rolling")), visible=False, margin=(4, 0))
         parts = self._switch, self._note, *self._places.values(), controls
-        self.view = pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[AROUND])
+        self.view = column(*parts, stylesheets=[AROUND])
         self._makers = {
             "which": self.rolling.plane, "surface": self.rolling.surface, "portraits": self.rolling.portraits,
             "time": self._make_times, "values": self._make_values, "ends": self._make_ends,
@@ -141,7 +141,8 @@ class Research(param.Parameterized):
 
         def show(scene):
             tables.visible = scene.table == "three"
-            figures.show(scene, self._span(scene))
+            rolling = self._lab.explorer.scene  # some nods at first, if that is all that it does
+            figures.show(scene, rolling.trajectory.t[-1] * rolling.scales.time if scene.table == "rough" else np.inf)
 
         content = [
             tables, *(row(figures, name, 84) for name in ROWS),
@@ -149,11 +150,6 @@ class Research(param.Parameterized):
             row(figures, "ledger", 130), words(f'<div class="axis">{say("planes.keys.time")}</div>'),
         ]  # fmt: skip
         return content, {"lab": show}
-
-    def _span(self, scene):
-        """For how long (s) the motion is drawn at first: some nods, if that is all that it does."""
-        rolling = self._lab.explorer.scene
-        return rolling.trajectory.t[-1] * rolling.scales.time if scene.table == "rough" else np.inf
 
     def _make_values(self):
         happened = Moments(clock="lab", sizing_mode="stretch_width", margin=(4, 0, 0, 0))
@@ -169,13 +165,12 @@ class Research(param.Parameterized):
             scatters.object = ""
             motion = scene.motions["ordinary"]
             if hits(motion):
-                self._runs.begin(Run(lambda run: nudged(motion, run.look), partial(scattered, motion)), "nudged", LATER)
+                done = unless_stopped(partial(scattered, motion))
+                self._runs.begin(Run(lambda run: nudged(motion, run.look), done), "nudged", LATER)
 
         def scattered(motion, growth):
-            if isinstance(growth, float) and self._lab.scene.motions["ordinary"] is motion:
+            if self._lab.scene.motions["ordinary"] is motion:
                 scatters.object = f'<div class="says">{scatter_words(growth)}</div>'
-            elif isinstance(growth, Exception) and not isinstance(growth, Stopped):
-                raise growth
 
         title = words(f"<h2>{say('planes.moments.title')}</h2>")
         return [title, happened, scatters, kept, of_run, self.rolling.kept], {"lab": show}
@@ -188,14 +183,13 @@ class Research(param.Parameterized):
             tops.show(scene.start.top)
             says.object = ball_words(scene)
 
-        def pane(figure, height):
-            shown = pn.pane.Bokeh(figure, sizing_mode="stretch_both", margin=0)
-            return pn.Column(shown, sizing_mode="stretch_width", height=height, margin=0)
+        def high(figure, height):
+            return column(pane(figure), height=height)
 
         def head(name):
             return words(f'<h2>{say(f"planes.cards.{name}")}</h2><div class="key">{say(f"planes.keys.{name}")}</div>')
 
-        content = [head("well"), pane(well.figure, 240), says, head("map"), pane(tops.figure, 360)]
+        content = [head("well"), high(well.figure, 240), says, head("map"), high(tops.figure, 360)]
         return content, {"lab": show}
 
     def _pick(self, a, ratio):

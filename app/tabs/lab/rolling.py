@@ -8,10 +8,11 @@ from app.borrowed import at_once
 from app.model.hands import pulled
 from app.state import asked
 from app.text import say
-from app.widgets.cards import words
-from app.widgets.choice import Choice
+from app.widgets.cards import column, words
 from app.widgets.controls import named
+from app.widgets.forms import Choice
 from app.widgets.plane_card import PlaneCard
+from app.widgets.plots import pane
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.said import said
 from app.widgets.surface3d import Surface3D, show_surface
@@ -19,16 +20,6 @@ from app.widgets.typeset import power
 
 HIGH = "calc(var(--type, 1) * clamp(420px, 100vh - 400px, 700px))"  # of a panel
 HALF = 330  # px: of two portraits
-
-
-def unit_words(scene):
-    unit = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
-    return f'<div class="axis">{unit}</div>'
-
-
-def kept_words(scene):
-    """How well the constants, recomputed from the motion, are conserved."""
-    return f'<div class="axis key">{say("roll.says.kept", drift=power(scene.drift))}</div>'
 
 
 class Switch:
@@ -41,8 +32,7 @@ class Switch:
         self._says = said(styles={"min-height": "2.8em"})
         self._switch = Choice({say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)}, 0)
         self._switch.param.watch(lambda event: soon(partial(self._look, event.new)), "value")
-        self.view = pn.Column(words(f"<h2>{title}</h2>"), self._switch, *self._places, self._says,
-                              sizing_mode="stretch_width", height=HALF, margin=0)  # fmt: skip
+        self.view = column(words(f"<h2>{title}</h2>"), self._switch, *self._places, self._says, height=HALF)
 
     def _look(self, chosen):
         if chosen not in self._made:
@@ -51,7 +41,7 @@ class Switch:
             across, up = portrait.axes
             self._places[chosen].objects = [
                 words(up),
-                pn.pane.Bokeh(portrait.figure, sizing_mode="stretch_both", margin=0),
+                pane(portrait.figure),
                 words(f'<div class="axis">{across}</div>'),
             ]
         self.show(self._scene)
@@ -85,7 +75,7 @@ class Rolling:
             self._scene = scene
             card.show_selected(scene)
 
-        place = pn.Column(*card.content, sizing_mode="stretch_width", margin=0, styles={"height": HIGH})
+        place = column(card.plane, styles={"height": HIGH})
         return [place], {"hand": select, "pictures": card.plane.show_plane, "still": card.show_path}
 
     def surface(self):
@@ -97,8 +87,9 @@ class Rolling:
             self._scene = scene
             show_surface(surface, scene)
 
-        title = words(f"<h2>{say('roll.cards.floor', height=named('height'), plane=plane_symbols())}</h2>")
-        place = pn.Column(title, surface, sizing_mode="stretch_width", margin=0, styles={"height": HIGH})
+        plane = f"({named('K_J')}, {named('angle')})"
+        title = words(f"<h2>{say('roll.cards.floor', height=named('height'), plane=plane)}</h2>")
+        place = column(title, surface, styles={"height": HIGH})
         return [place], {"pictures": draw}
 
     def portraits(self):
@@ -113,7 +104,12 @@ class Rolling:
 
     def say(self, scene):
         """Says what a unit of time is, and how well the constants of a rolling motion stay; nothing of None."""
-        self.kept.text = unit_words(scene) + kept_words(scene) if scene else ""
+        if scene is None:
+            self.kept.text = ""
+            return
+        unit = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
+        kept = say("roll.says.kept", drift=power(scene.drift))
+        self.kept.text = f'<div class="axis">{unit}</div><div class="axis key">{kept}</div>'
 
     # ---- requests by hand ----
 
@@ -130,7 +126,3 @@ class Rolling:
         else:
             grip, (K_J, theta) = "tieline", asked.parts(event.new, asked.number, asked.number)
         self._grabbed(grip, theta, K_J, self._scene.plane.limit)
-
-
-def plane_symbols():
-    return f"({named('K_J')}, {named('angle')})"

@@ -4,6 +4,7 @@ import param
 
 from app.bundle import Bundled
 from app.model.lab.allowed import LIMITS
+from app.model.playing import Playing
 from app.state.names import LEVELS
 from app.text import listed, say
 
@@ -18,14 +19,15 @@ def inputs(language=None):
     return {name: known[name] | {"name": capital(known[name]["name"])} for name in LIMITS}
 
 
-class LabView(Bundled):
+class LabView(Bundled, Playing):
     """The whole tab: the top on its table, the tilt over time, what happens and why, a figure that answers, and the
     controls of the start.
 
     For each table it has the frames of the motion, as `pack_frames` packs them, and its curves: float32 rows of the
     time (s), the tilt (degrees), the height of G, the energy and the heat so far (as mm of height), the spin about the
     top's own axis and its rotation seen from above (rev/s), and the code of the regime; for all three side by side
-    also what it conserves, float32 rows as of app.model.keeps. All are empty if there is no such motion.
+    also what it conserves, float32 rows as of app.model.keeps. All are empty if there is no such motion. The browser
+    writes what is of Playing; what is shown with the top is as of a Top3D, at the level "Research".
     """
 
     SAYS = ("Stage", "Top3D", "NumberControls")
@@ -47,18 +49,6 @@ class LabView(Bundled):
     keeps_rough = param.Bytes(default=b"")
     keeps_ice = param.Bytes(default=b"")
     level = param.String(default=LEVELS[0], doc="How much the page shows: one of LEVELS.")
-    time = param.Number(default=0.0, doc="The cursor, in (R/g)^1/2; the browser writes it where a person stops.")
-    playing = param.Boolean(default=True, doc="Whether it plays; the browser writes it, like all below.")
-    speed = param.Number(default=0.0, bounds=(0, None), doc="1 is the real top's own speed; 0: as fits its events.")
-    camera = param.List(default=[], doc="As of a Top3D; empty: the first view.")
-    show_track = param.Boolean(default=True, doc='At the level "Research": as of a Top3D, like all below.')
-    show_trace = param.Boolean(default=True)
-    show_com_path = param.Boolean(default=True)
-    show_force = param.Boolean(default=True)
-    show_cone = param.Boolean(default=True)
-    show_omega = param.Boolean(default=True)
-    show_momentum = param.Boolean(default=True)
-    follow = param.Boolean(default=True)
     asked = param.List(
         default=[], doc="[count, name, value] of a request; state tells the last count that was answered. The names "
         "are a Lab's inputs; example: one of EXAMPLES; research: the paper's figures; why, why_not: a place of Learn."

@@ -44,10 +44,6 @@ def part(settings):
     return say(f"planes.parts.{settings.part}")
 
 
-def happens(event, settings):
-    return say(f"planes.events.{event}", part=part(settings))
-
-
 def trace_words(moved):
     """Which way the trace on the ball runs, and where it turns back; "" if it does not."""
     back = turns_back(moved)
@@ -178,7 +174,7 @@ def drift_words(name, motion):
     changes = say("planes.drift.changes", size=f"{written(100 * drift, '.3g')} %" if drift > 1e-3 else power(drift))
     if name == "J" and event and alone < ROUNDING:
         settings = motion.start
-        then = say("planes.drift.then", time=until * settings.scales.time, happens=happens(event, settings),
-                   changes=changes)  # fmt: skip
+        happens = say(f"planes.events.{event}", part=part(settings))
+        then = say("planes.drift.then", time=until * settings.scales.time, happens=happens, changes=changes)
         return f'<span class="kept">{say("planes.drift.stays", power=power(alone))}</span>{then}'
     return changes

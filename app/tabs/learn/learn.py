@@ -1,11 +1,10 @@
 """The tab Learn: the lesson, the part for theorists, and the pages beside them."""
 
-import panel as pn
 import param
 
 from app.model.lesson import lesson
 from app.model.lesson.runs import on_table
-from app.model.runs import Run, Runs, Stopped
+from app.model.runs import Run, Runs
 from app.state import asked
 from app.state.names import SECTIONS
 from app.tabs.learn.lesson import FIRST, LessonView, cut, runs_of, said
@@ -15,8 +14,9 @@ from app.tabs.learn.published import published_view
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
-from app.widgets.cards import card, first, later, staged, words
-from app.widgets.choice import Choice
+from app.widgets.cards import card, column, first, later, staged, words
+from app.widgets.failure import unless_stopped
+from app.widgets.forms import Choice, hear
 from app.widgets.top3d import Top3D, show_top
 
 ABOVE = "@media (min-width: 1000px) { :host { margin-left: 24px !important } }"  # as the cards below it
@@ -40,7 +40,7 @@ class Learn(param.Parameterized):
         self._scene, self._runs, self._of = scene, runs or Runs(), {}
         self._lab = lab or (lambda: None)
         self.lesson = LessonView(sizing_mode="stretch_width", margin=0, worksheet=worksheet())
-        self.lesson.param.watch(asked.heard(self._heard), "asked")
+        hear(self.lesson, asked=self._heard)
         self.top = Top3D(clock=CLOCK, sizing_mode="stretch_both")
         self.derivation = Derivation(CLOCK)
         options = {say(f"learn.sections.{name}"): name for name in SECTIONS}
@@ -61,11 +61,10 @@ class Learn(param.Parameterized):
         lines = later(card(say("derivation.page.title"), intro, self.derivation.place), 1)
         top = first(card(say("learn.page.top"), self.top))
         # a hidden Column inside, because a grid with a layout of its own cannot be hidden
-        self.pair = pn.Column(staged([top], [lines], mirrored=True), sizing_mode="stretch_width", margin=0)
-        self.others = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.pair = column(staged([top], [lines]))
+        self.others = column()
         self._made = {}
-        return pn.Column(self.sections, self.lesson, self.pair, self.others, sizing_mode="stretch_width", margin=0,
-                         css_classes=["learn"])  # fmt: skip
+        return column(self.sections, self.lesson, self.pair, self.others, css_classes=["learn"])
 
     # ---- the lesson ----
 
@@ -84,14 +83,10 @@ class Learn(param.Parameterized):
         return {step.name: said(step, scene) for step in steps}, runs_of(steps, scene)
 
     def _find(self, steps):
-        work = Run(lambda run, scene=self._scene: self._found(scene, steps), self._take)
+        work = Run(lambda run, scene=self._scene: self._found(scene, steps), unless_stopped(self._take))
         self._runs.begin(work, "lesson")
 
     def _take(self, found):
-        if isinstance(found, Stopped):
-            return
-        if isinstance(found, Exception):
-            raise found
         words_of, runs = found
         self._of |= words_of
         six = {name: runs[name] for step in lesson.SIX for name in step.tops if name in runs}

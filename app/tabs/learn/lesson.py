@@ -8,7 +8,6 @@ from contextlib import suppress
 import numpy as np
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.arrival import SPIN, TILT
 from app.model.lesson import lesson
@@ -50,10 +49,6 @@ class LessonView(Bundled):
         own |= {"room": listed("teach.room", language)}
         drawn = listed("learn.pictures", language)
         return super().says(language) | listed("lab_view.view", language) | {"lesson": own, "drawn": drawn}
-
-    def __init__(self, **params):
-        super().__init__(**params)
-        at_once(self, "asked")
 
 
 def cut(motion, end):
@@ -111,8 +106,8 @@ def _said(step, plan, answer):
     words = {key: spelled(say(f"learn.{step.name}.{key}", **numbers)) for key in ("question", "hint", "learned")}
     return words | {
         "told": spelled(say(f"learn.{step.name}.{answer.told}", **numbers)).split("\n"),
-        "asks": asks(step, answer.truth), "truth": truth_of(answer.truth), "tops": [_top(name) for name in step.tops]
-        or [[step.name, say("learn.tops.plan")]], "later": list(step.later),
+        "asks": asks(step, answer.truth), "truth": truth_of(answer.truth), "later": list(step.later),
+        "tops": [[name, say(f"learn.tops.{name}")] for name in step.tops] or [[step.name, say("learn.tops.plan")]],
         "before": step.before * long, "end": step.end * long, "speed": long / SLOW if step.inputs else 0.0,
         "events": _events(motions.get(FIRST if FIRST in motions else next(iter(motions), None))),
         "stages": {name: [[t, short] for t, *_, short in story(motion).stages] for name, motion in motions.items()
@@ -124,10 +119,6 @@ def _said(step, plan, answer):
 
 def _motion(name, plan) -> TableMotion:
     return own(plan) if name == "yours" else named(name)
-
-
-def _top(name):
-    return [name, say(f"learn.tops.{name}")]
 
 
 def _events(motion):

@@ -2,13 +2,13 @@
 pointed at."""
 
 import numpy as np
-import panel as pn
 import param
 
 from app.bundle import Bundled
 from app.model import stretches
 from app.model.roll import derivation
 from app.text import listed, say
+from app.widgets.cards import column
 
 PLANES = ("rough", "smooth")
 
@@ -68,7 +68,7 @@ class Derivation:
     def __init__(self, clock):
         self._scene = None
         self._clock = clock
-        self.place = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.place = column()
 
     def show(self, scene):
         if scene is self._scene:

@@ -99,13 +99,17 @@ class Teacher:
 
     def _done(self, result):
         self._busy = False
+        if not self._refused(result):
+            self._take(result)
+            self._next()
+
+    def _refused(self, result):
+        """Says so if there is no room, or if it cannot be reached."""
         if isinstance(result, Refused):
             self._forget(refusal("vote", result))
         elif isinstance(result, Away):
             self._tell(refusal("vote", result))
-        else:
-            self._take(result)
-            self._next()
+        return isinstance(result, (Refused, Away))
 
     _kept_key = ""
 
@@ -121,13 +125,7 @@ class Teacher:
         self._tell("")
 
     def _news(self, room):
-        if room is None:
-            self._forget(refusal("vote", Refused("over")))
-        elif isinstance(room, Refused):
-            self._forget(refusal("vote", room))
-        elif isinstance(room, Away):
-            self._tell(refusal("vote", room))
-        else:
+        if not self._refused(room or Refused("over")):
             self._room = room
             self._tell("")
 

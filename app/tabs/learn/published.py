@@ -7,12 +7,13 @@ import param
 from app.bundle import Bundled, pack
 from app.model import published
 from app.model.colours import COLOURS
-from app.model.runs import Run, Stopped
+from app.model.runs import Run
 from app.model.setup import TOYS
 from app.state import names
 from app.state.codecs import Body
 from app.text import listed, say
 from app.widgets.cards import card, grid, tall, words
+from app.widgets.failure import unless_stopped
 
 DRAWN = {"coulomb": ("#5b6875", ""), "smoothed": (COLOURS["theta"], "dashed"), "patch": (COLOURS["normal"], ""),
          "stepped": ("#c0392b", "dotted")}  # fmt: skip
@@ -47,14 +48,8 @@ RESULTS = {
     "dojo": {},
 }  # fmt: skip
 ON_ICE = _opens(*TOYS_OWN, table="ice")
-EXPLANATIONS = {
-    "racket": LAWS["patch"],
-    "conserved": ON_ICE,
-    "space": ON_ICE,
-    "reverses": _opens(*TOYS_OWN),
-    "rough": _opens(*TOYS_OWN, table="rough"),
-    "inertial": ON_ICE,
-}
+EXPLANATIONS = {"racket": LAWS["patch"], "conserved": ON_ICE, "space": ON_ICE, "reverses": _opens(*TOYS_OWN),
+                "rough": _opens(*TOYS_OWN, table="rough"), "inertial": ON_ICE}  # fmt: skip
 
 
 class Steps(Bundled):
@@ -66,12 +61,8 @@ class Steps(Bundled):
     @classmethod
     def says(cls, language=None):
         drawn, decimal = listed("learn.pictures", language), say("browser.NumberControls.decimal", language)
-        return super().says(language) | {
-            "steps": listed("published.view", language),
-            "decimal": decimal,
-            "drawn": drawn,
-            "open": say("published.page.open", language),
-        }
+        return super().says(language) | {"steps": listed("published.view", language), "decimal": decimal,
+                                         "drawn": drawn, "open": say("published.page.open", language)}  # fmt: skip
 
 
 def curve_said(curve):
@@ -91,13 +82,9 @@ def steps_view(runs):
     steps = Steps(points=points, sizing_mode="stretch_width", margin=0)
 
     def take(found):
-        if isinstance(found, Stopped):
-            return
-        if isinstance(found, Exception):
-            raise found
         steps.curves = [curve_said(curve) for curve in found]
 
-    runs.begin(Run(lambda run: published.curves(), take), "published")
+    runs.begin(Run(lambda run: published.curves(), unless_stopped(take)), "published")
     return steps
 
 
@@ -125,7 +112,6 @@ def published_view(runs):
 
     why = (words(f"<p style='margin: 0 0 6px'>{say('published.page.cohen')}</p>"), steps_view(runs),
            words(f"<p style='margin: 6px 0 0'>{say('published.page.why')}</p>"))  # fmt: skip
+    results = words(f"<p style='margin: 0 0 12px'>{say('published.page.intro')}</p>{results}")
     left = tall(carded("question", *why), carded("explanations", words(explanations)))
-    return grid(
-        left, carded("results", words(f"<p style='margin: 0 0 12px'>{say('published.page.intro')}</p>{results}"))
-    )
+    return grid(left, carded("results", results))

@@ -5,7 +5,7 @@ import param
 
 from app.bundle import Bundled
 from app.model.lesson import lesson
-from app.model.runs import Run, Runs, Stopped, connected_to, to_session
+from app.model.runs import Run, Runs, connected_to, to_session
 from app.model.votes.ballots import Away
 from app.model.votes.classroom import MARK, Refused
 from app.state import asked
@@ -13,8 +13,10 @@ from app.state.names import link
 from app.tabs.learn.lesson import LessonView, runs_of, said
 from app.tabs.learn.poll import Counter, refusal, scene_of
 from app.text import say
+from app.widgets.cards import column
 from app.widgets.connection import Connection
-from app.widgets.failure import full, waits
+from app.widgets.failure import full, unless_stopped, waits
+from app.widgets.forms import hear
 
 
 class Phone(Bundled):
@@ -33,14 +35,13 @@ class Ballot:
         self.lesson = LessonView(sizing_mode="stretch_width", margin=0, state={"role": "phone", "said": ""})
         # changes that are held back and sent together before the page has loaded would be lost
         self.phone.param.watch(self._known, "mark")
-        self.lesson.param.watch(asked.heard(self._heard), "asked")
+        hear(self.lesson, asked=self._heard)
         self._tell(say("teach.vote.wait"))
 
     @property
     def view(self):
         lost = Connection(words=say("main.lost"), slow=say("main.slow"), width=0, height=0, margin=0)
-        return pn.Column(self.lesson, self.phone, lost, sizing_mode="stretch_width", max_width=640, margin=0,
-                         css_classes=["learn"])  # fmt: skip
+        return column(self.lesson, self.phone, lost, max_width=640, css_classes=["learn"])
 
     def _known(self, event):
         """Uses only the first identifier that the phone sends: a page that sends another one later would vote as
@@ -86,13 +87,9 @@ class Ballot:
             def work(run):
                 return said(step, scene, hidden=not shown), runs_of([step], scene, hidden=not shown)
 
-            self._runs.begin(Run(work, self._found), "lesson")
+            self._runs.begin(Run(work, unless_stopped(self._found)), "lesson")
 
     def _found(self, found):
-        if isinstance(found, Stopped):
-            return
-        if isinstance(found, Exception):
-            raise found
         words, runs = found
         self.lesson.param.update(steps=[words], runs=runs, state=self.lesson.state | {"step": words["name"]})
 

@@ -19,12 +19,6 @@ def bullets(items, ordered=False):
     return f"<{kind} style='margin: 4px 0; padding-left: 20px'>{''.join(f'<li>{item}</li>' for item in items)}</{kind}>"
 
 
-def class_view(present, close):
-    """The buttons that begin and end a class."""
-    buttons = Button(say("teach.vote.present"), present, kind="primary"), Button(say("teach.vote.close"), close)
-    return [words(say("teach.vote.explain")), flow(*buttons)]
-
-
 def teach_view(present, close):
     """present, close: begin and end a class."""
     links = "".join(
@@ -36,22 +30,19 @@ def teach_view(present, close):
         for row in listed("teach.olympiad")
     )
 
+    buttons = Button(say("teach.vote.present"), present, kind="primary"), Button(say("teach.vote.close"), close)
+
     def carded(key, content):
         return card(say(f"teach.page.{key}"), words(content))
 
-    return grid(
-        tall(
-            card(say("teach.page.vote"), *class_view(present, close)),
-            carded("fifteen", bullets(listed("teach.plans.fifteen"), True)),
-            carded("wrong", bullets(listed("teach.plans.wrong"))),
-            carded("toy", bullets(listed("teach.plans.toy"))),
-        ),
-        tall(
-            carded("links", f"<ol style='margin: 4px 0; padding-left: 28px'>{links}</ol>"),
-            carded("fifty", bullets(listed("teach.plans.fifty"), True)),
-            carded("olympiad", f"<dl style='margin: 0'>{olympiad}</dl>"),
-        ),
-    )
+    def planned(key, ordered=False):
+        return carded(key, bullets(listed(f"teach.plans.{key}"), ordered))
+
+    vote = card(say("teach.page.vote"), words(say("teach.vote.explain")), flow(*buttons))
+    links = carded("links", f"<ol style='margin: 4px 0; padding-left: 28px'>{links}</ol>")
+    olympiad = carded("olympiad", f"<dl style='margin: 0'>{olympiad}</dl>")
+    return grid(tall(vote, planned("fifteen", True), planned("wrong"), planned("toy")),
+                tall(links, planned("fifty", True), olympiad))  # fmt: skip
 
 
 def history_view():
@@ -60,14 +51,14 @@ def history_view():
         + " · ".join(listed(f"sources.{name}.short") for name in part["sources"]) + "</p>"
         for part in listed("history.part")
     )  # fmt: skip
-    every = "".join(f"<li>{source['full']}</li>" for source in listed_all("sources"))
+    every = "".join(f"<li>{source['full']}</li>" for source in sources_by_year())
     return grid(
         card(say("history.page.title"), words(parts)),
         card(say("history.page.list"), words(f"<ol style='margin: 4px 0; padding-left: 22px'>{every}</ol>")),
     )  # fmt: skip
 
 
-def listed_all(name):
-    """The sources, sorted by the first year that each one names."""
+def sources_by_year():
+    """Sorted by the first year that each one names."""
     year = re.compile(r"(18|19|20)\d\d")
-    return sorted(listed(name).values(), key=lambda source: year.search(source["short"] + source["full"]).group())
+    return sorted(listed("sources").values(), key=lambda source: year.search(source["short"] + source["full"]).group())

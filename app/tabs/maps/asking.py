@@ -1,6 +1,5 @@
 """The inputs of a map: selects, and entries to type into; together they give a Map."""
 
-from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 
@@ -9,8 +8,7 @@ from app.model.maps.maps import COLOURS_BY, LAWS, MOST_CELLS, MOST_SECONDS, QUAN
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, written
 from app.widgets.cards import Hidden, flow, words
-from app.widgets.forms import Field, Menu
-from app.widgets.numbers import typed_number
+from app.widgets.forms import Field, Menu, typed_number
 
 SIDES = "across", "up"
 LIMITS = ("from", "to")
@@ -20,14 +18,11 @@ class Settings:
     """changed: called after an input was set by hand; gone: after another position of the bead was typed."""
 
     def __init__(self, asked, colour, place, changed, gone):
-        self._changed, self._gone, self._silent, self._last = changed, gone, False, ""
+        self._changed, self._gone, self._last = changed, gone, ""
         quantities = {says: name for name, says in listed("maps.quantities").items()}
-        options = {
-            "across": quantities,
-            "up": quantities,
-            "colour": {listed("maps.colours")[name]: name for name in COLOURS_BY},
-            "law": {listed("maps.laws")[name]: name for name in LAWS},
-        }
+        colours, laws = listed("maps.colours"), listed("maps.laws")
+        options = {"across": quantities, "up": quantities, "colour": {colours[name]: name for name in COLOURS_BY},
+                   "law": {laws[name]: name for name in LAWS}}  # fmt: skip
         self.choices = {name: Menu(say(f"maps.{name}"), options=each, value=next(iter(each.values())))
                         for name, each in options.items()}  # fmt: skip
         called, spoken = listed("maps.quantities"), {"seconds": say("maps.seconds"), "cells": say("maps.cells")}
@@ -65,39 +60,25 @@ class Settings:
         label = words(say("maps.here"), sizing_mode=None, align="center")
         return flow(label, *(self.entries[f"here_{side}"] for side in SIDES), margin=(4, 0))
 
-    @contextmanager
-    def _quietly(self):
-        before, self._silent = self._silent, True
-        try:
-            yield
-        finally:
-            self._silent = before
-
     def show(self, asked, colour, place):
         """Shows all inputs of a Map, the colour and the bead."""
         self._slides = {"body": asked.body, "own": asked.own}
-        with self._quietly():
-            for name, value in (("across", asked.across), ("up", asked.up), ("colour", colour), ("law", asked.law)):
-                self.choices[name].value = value
-            self._write({f"{side}_{end}": span[i] for side, span in zip(SIDES, spans(asked), strict=True)
-                         for i, end in enumerate(LIMITS)})  # fmt: skip
-            self._write({name: asked.start[name] for name in FIXED})
-            self._write({"seconds": asked.seconds, "cells": asked.cells})
+        for name, value in (("across", asked.across), ("up", asked.up), ("colour", colour), ("law", asked.law)):
+            self.choices[name].put(value=value)
+        self._write_spans(*spans(asked))
+        self._write({name: asked.start[name] for name in FIXED} | {"seconds": asked.seconds, "cells": asked.cells})
         self.show_place(place)
         self._show_rows()
         self._good = {name: entry.value for name, entry in self.entries.items()}
         self.accept()
 
     def show_place(self, place):
-        with self._quietly():
-            self._write({f"here_{side}": x for side, x in zip(SIDES, place, strict=True)})
+        self._write({f"here_{side}": x for side, x in zip(SIDES, place, strict=True)})
 
     def look_at(self, across, up):
         """Sets other ranges."""
         self._last = ""
-        with self._quietly():
-            self._write({f"{side}_{end}": float(span[i]) for side, span in (("across", across), ("up", up))
-                         for i, end in enumerate(LIMITS)})  # fmt: skip
+        self._write_spans(across, up)
         self._changed()
 
     def asked(self):
@@ -153,22 +134,18 @@ class Settings:
     # ---- input by hand ----
 
     def _chosen(self, name, event):
-        if self._silent:
-            return
         self._last = ""
-        with self._quietly():
-            if name in SIDES:
-                quantity = QUANTITIES[event.new]
-                self._write({f"{name}_from": quantity.low, f"{name}_to": quantity.high})
-            if name == "law":
-                self._write({"second": Map(law=event.new).start["second"]})
+        if name in SIDES:
+            quantity = QUANTITIES[event.new]
+            self._write({f"{name}_from": quantity.low, f"{name}_to": quantity.high})
+        if name == "law":
+            self._write({"second": Map(law=event.new).start["second"]})
         self._show_rows()
         self._changed()
 
     def _typed(self, name, event):
-        if not self._silent:
-            self._last = name
-            (self._gone if name.startswith("here") else self._changed)()
+        self._last = name
+        (self._gone if name.startswith("here") else self._changed)()
 
     def _show_rows(self):
         taken, law = (self.choices["across"].value, self.choices["up"].value), self.choices["law"].value
@@ -178,7 +155,11 @@ class Settings:
 
     def _write(self, values):
         for name, value in values.items():
-            self.entries[name].value = written(value, ".5g")
+            self.entries[name].put(value=written(value, ".5g"))
+
+    def _write_spans(self, *of_sides):
+        self._write({f"{side}_{end}": float(x) for side, span in zip(SIDES, of_sides, strict=True)
+                     for end, x in zip(LIMITS, span, strict=True)})  # fmt: skip
 
     def _number(self, name):
         text = self.entries[name].value

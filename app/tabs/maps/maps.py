@@ -19,26 +19,28 @@ from app.model.runs import MAPS, WORK, Run, Runs, Stopped
 from app.state import asked as sent
 from app.tabs.maps.asking import Settings, spans
 from app.tabs.maps.export import KINDS, made, python
-from app.tabs.maps.picture import MapFigure, RunFigure
-from app.tabs.maps.stage import map_stage, show_run
+from app.tabs.maps.picture import CLOCK, MapFigure, RunFigure
 from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import body_of, colours_say, of_reason, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
-from app.widgets.cards import alert, flow, note, progress, words
+from app.widgets.cards import alert, areas, column, flow, note, progress, words
 from app.widgets.copy import Copy
 from app.widgets.download import Download
+from app.widgets.failure import unless_stopped
+from app.widgets.film_stage import FilmStage, put_motion
 from app.widgets.forms import Button
+from app.widgets.plots import pane
 from tippe_core import TopError
 
 MAP = Map()
 PICTURE_EVERY = 0.3  # s
 OTHERS = 0.3  # s between two looks for a map that is being computed for another page
-PART = {"min-width": "0"}
 # On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
 ROOM = """
 :host { display: grid; gap: 16px 24px; padding: 12px 16px 16px; align-items: start;
   grid: auto-flow max-content / minmax(0, 1fr);
   min-height: max-content }
+.above, .run, .below { min-width: 0 }
 @media (min-width: 900px) {
   :host { padding: 12px 24px 24px; grid: max-content 1fr / minmax(0, 66fr) minmax(0, 34fr) }
   .run { grid-area: 1 / 2 / span 2 }
@@ -57,7 +59,7 @@ class Maps:
 
     def __init__(self, runs=None, scene=None, throw=None, seconds=MAP.seconds):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
-        self.choice, self.level, self._ones, self._seen, self._outline = MapChoice(), None, [], None, None
+        self.choice, self.level, self._seen, self._outline = MapChoice(), None, None, None
         self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen, self._outline = of_page(scene), scene.profile
@@ -65,11 +67,12 @@ class Maps:
             self.choice.asked = replace(self.usual["asked"], seconds=seconds)
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
-        self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
+        self.worst, self.key = words(), words(margin=(6, 0))
         self.run_says = words(margin=(6, 0), css_classes=["answer"])
-        self.disagree = pn.Column(sizing_mode="stretch_width", margin=0)  # what is said, and a button for each
+        self.disagree = column()  # what is said, and a button for each
         self.map, self.curve = MapFigure(self._by_hand), RunFigure()
-        self.stage = map_stage()
+        self.stage = FilmStage(clock=CLOCK, anew=True, label=say("maps.stage.label"), none=say("maps.stage.none"),
+                               sizing_mode="stretch_width", height=260)  # fmt: skip
         self.steady = Steady(self._runs)
         self.stop = Button(say("maps.stop"), lambda: self._run and self._run.stop(), disabled=True)
         self.closer = Button(say("maps.closer"), lambda: self.settings.look_at(*self._around()))
@@ -78,7 +81,7 @@ class Maps:
                              visible=False)  # fmt: skip
         self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
         self.files = [
-            Download(self._runs, lambda: (self.level, self.choice.colour), partial(_file, kind), label=kind.upper(),
+            Download(self._runs, lambda: (self.level, self.choice.colour), partial(made, kind=kind), label=kind.upper(),
                      filename=f"tippe-top-map.{kind}", margin=0)
             for kind in KINDS
         ]  # fmt: skip
@@ -91,18 +94,15 @@ class Maps:
     def view(self):
         """The map, the run at the bead with the inputs, and what is below; one below the other if there is little
         room."""
-        above = [self.head, self.names, _figure(self.map.figure),
+        above = [self.head, pane(self.map.figure),
                  flow(self.stop, self.closer, self.whole, self.bar, margin=(4, 0)), self.said,
                  words(note(say("maps.hint")))]  # fmt: skip
         below = [self.worst, *self.steady.view, words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)),
                  flow(*self.files), self.python]  # fmt: skip
-        beside = [self.stage, self.run_says, _figure(self.curve.figure),
+        beside = [self.stage, self.run_says, pane(self.curve.figure),
                  words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown,
                  self.key, self.disagree, *self.settings.view]  # fmt: skip
-        parts = [pn.Column(*content, margin=0, sizing_mode="stretch_width", styles=PART, css_classes=[name],
-                           stylesheets=[ANSWER])
-                 for content, name in ((above, "above"), (beside, "run"), (below, "below"))]  # fmt: skip
-        return pn.Column(*parts, sizing_mode="stretch_width", margin=0, stylesheets=[ROOM])
+        return areas(ROOM, [ANSWER], above=above, run=beside, below=below)
 
     def open(self, all_of_it):
         """Shows, or hides, what is for the level Research."""
@@ -175,12 +175,13 @@ class Maps:
         self.settings.show(self.choice.asked, colour, self.choice.place)
         self.said.object = ""
         count = say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
-        self.head.object = f"<h2>{title(asked, colour)}</h2>" + note(": ".join(filter(None, (body_of(asked), count))))
+        axes = f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}"
+        says = note(": ".join(filter(None, (body_of(asked), count)))) + note(axes)
+        self.head.object = f"<h2>{title(asked, colour)}</h2>{says}"
         if asked == self.asked and self.level is not None:
             self._show(self.level)
             return
         before, self.asked, self.level = self.asked, asked, None
-        self.names.object = note(f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}")
         self.python.text = python(asked)
         self.map.begin(asked)
         for said in (self.key, self.worst):  # they belong to the previous map
@@ -248,7 +249,7 @@ class Maps:
             self.said.object = ""
             self.worst.object = note(of_worst(level))
             says = [words(of_reason(*each, asked)) for each in told_of] or [words(note(say("maps.agree")))]
-            shows = [Button(say("maps.show_one"), partial(self._show_one, i), kind="link") for i in range(len(told_of))]
+            shows = [Button(say("maps.show_one"), partial(self.go, *one, cell=True), kind="link") for one in self._ones]
             self.disagree.objects = [
                 *([words(f"<h2>{say('maps.disagree')}</h2>")] if told_of else []),
                 *(part for pair in zip_longest(says, shows) for part in pair if part is not None),
@@ -279,9 +280,6 @@ class Maps:
         self._to_lab((across, up), look=False)
         self._go([across, up])
 
-    def _show_one(self, i):
-        self.go(*self._ones[i], cell=True)
-
     def _go(self, place):
         if place == self.choice.place:
             self._show_place()  # a run that failed before is tried again
@@ -292,9 +290,9 @@ class Maps:
         asked, (across, up) = self.asked, self.choice.place
         self.map.bead.data = {"x": [across], "y": [up]}
         self.settings.show_place((across, up))
-        self._runs.begin(
-            Run(lambda run: one_run(asked, across, up, run.look), partial(self._ran, asked, across, up)), "maps-run"
-        )
+        done = unless_stopped(partial(self._ran, asked, across, up),
+                              lambda error: setattr(self.run_says, "object", alert(told(error))))  # fmt: skip
+        self._runs.begin(Run(lambda run: one_run(asked, across, up, run.look), done), "maps-run")
         self.steady.show(asked, (across, up))
         self.thrown.visible = self._thrown((across, up)) is not None
 
@@ -306,25 +304,11 @@ class Maps:
         if (start := self._thrown(place)) is not None:
             self._throw(*start, look)
 
-    def _ran(self, asked, across, up, result):
-        if isinstance(result, TopError):
-            self.run_says.object = alert(told(result))
-        elif isinstance(result, Exception):
-            if not isinstance(result, Stopped):
-                raise result
-        else:
-            with pn.io.hold():
-                self.run_says.object = of_run(asked, across, up, result)
-                self.curve.show(result.t, result.theta, asked.seconds)
-                show_run(self.stage, result, outline_of(asked, asked.at(across, up), self._outline))
-
-
-def _file(kind, level, colour):
-    return made(level, colour, kind)
-
-
-def _figure(figure):
-    return pn.pane.Bokeh(figure, sizing_mode="stretch_width", height=figure.height, margin=0)
+    def _ran(self, asked, across, up, found):
+        with pn.io.hold():
+            self.run_says.object = of_run(asked, across, up, found)
+            self.curve.show(found.t, found.theta, asked.seconds)
+            put_motion(self.stage, found.t, found.film, outline_of(asked, asked.at(across, up), self._outline), 0.0)
 
 
 def _bar(percent):

@@ -1,19 +1,7 @@
 """Level of a map -> Bokeh: an image of its cells, hatching of mixed cells, lines of closed forms, the bead."""
 
 import numpy as np
-from bokeh.models import (
-    BoxAnnotation,
-    ColumnDataSource,
-    ImageRGBA,
-    Label,
-    Line,
-    MultiLine,
-    Quad,
-    Range1d,
-    Scatter,
-    Segment,
-    Span,
-)
+from bokeh.models import BoxAnnotation, ColumnDataSource, ImageRGBA, Label, Line, MultiLine, Quad, Scatter, Segment
 from bokeh.palettes import Viridis256
 from scipy.ndimage import distance_transform_edt
 
@@ -21,10 +9,10 @@ from app.bundle import call
 from app.model import ends
 from app.model.colours import ACCENT, INK
 from app.model.maps.lines import lines
-from app.tabs.maps.stage import CLOCK
 from app.text import listed, say
-from app.widgets.plots import draw, on_pointer, plain
+from app.widgets.plots import draw, on_pointer, plain, rule
 
+CLOCK = "map"  # of the run at the bead: the top in 3-D, and the curve that follows it
 DARK = "#1b2430"
 # The accent on the cells, which are the same in every look: as numbers, because the look exchanges its name.
 ON_MAP = f"rgb({', '.join(map(str, bytes.fromhex(ACCENT[1:])))})"
@@ -39,9 +27,8 @@ class MapFigure:
     """The figure; show() fills it. go: called with a place and whether it is that of a clicked cell."""
 
     def __init__(self, go):
-        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1))
-        fig.name = "maps"
-        fig.update(sizing_mode="stretch_width", height=440, min_border_left=44)
+        self.figure = fig = plain(say("maps.label"), 440, name="maps", x_range=(0, 1), y_range=(0, 1),
+                                  min_border_left=44)  # fmt: skip
         fig.grid.visible = False
         empty = {"image": [], "x": [], "y": [], "w": [], "h": []}
         self.coarse, self.fine = ColumnDataSource(empty), ColumnDataSource(empty)
@@ -70,7 +57,6 @@ class MapFigure:
                             line_color=ON_MAP, line_width=2)  # fmt: skip
         fig.add_layout(box)
         on_pointer(fig, call("pullBead", fig=fig, hand=self.hand, bead=self.bead, box=box))
-        fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label")))
         fig.js_on_change("inner_width", call("keepFinger", fig=fig, bead=self.bead, hand=self.hand))
         fig.js_on_change("inner_width", call("moveBead", fig=fig, hand=self.hand, bead=self.bead, map=self.fine))
         self.hand.on_change("data", lambda attr, old, new: go(new))
@@ -125,17 +111,14 @@ class RunFigure:
     """The tilt of one run over time, with the time that the stage shows; it can be dragged to another."""
 
     def __init__(self):
-        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 180))
-        fig.name = "maps-run"
-        fig.update(sizing_mode="stretch_width", height=200, min_border_left=44)
+        self.figure = fig = plain(say("maps.label_run"), 200, name="maps-run", x_range=(0, 1), y_range=(0, 180),
+                                  min_border_left=44)  # fmt: skip
         fig.yaxis.ticker.desired_num_ticks = 4
         self.source = ColumnDataSource({"t": [], "theta": []})
         draw(fig, Line, "t", "theta", source=self.source, line_color=INK, line_width=2)
-        now = Span(location=0, dimension="height", line_color=ACCENT, line_width=1.5)
-        fig.add_layout(now)
+        now = rule(fig, "height", line_color=ACCENT, line_width=1.5)
         fig.js_on_change("inner_width", call("moveLines", spans=[now], clock=CLOCK))
         on_pointer(fig, call("seekAlong", clock=CLOCK))
-        fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label_run")))
 
     def show(self, t, theta, seconds):
         self.source.data = {"t": t, "theta": theta}

@@ -5,19 +5,18 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColumnDataSource, Line, MultiLine, Range1d, Scatter
+from bokeh.models import ColumnDataSource, Line, MultiLine, Scatter
 
-from app.bundle import call
 from app.model import ends
 from app.model.colours import ACCENT, INK
 from app.model.maps.rates import rates
 from app.model.maps.steady import at_place, bifurcation, spins_of
 from app.model.runs import MAPS, Run, Stopped
-from app.tabs.maps.words import unit_of
+from app.tabs.maps.words import with_unit
 from app.text import listed, say, told
 from app.widgets.cards import Hidden, alert, note, words
 from app.widgets.failure import ended
-from app.widgets.plots import draw, plain
+from app.widgets.plots import draw, pane, plain
 from tippe_core import TopError
 
 COLOURS = {"upright": ACCENT, "tumbling": ends.COLOUR["stem"], "inverted": "#9b2d20"}
@@ -38,7 +37,7 @@ class Steady:
         self._runs, self._key, self._drawn = runs, None, False
         self.title, self.says, self.key, self.rates_title = words(), words(), words(), words()
         self.laws, self.powers = words(style=TABLE), words(style=TABLE)
-        self.bends = fig = _figure("maps-bends", 230, (0, 184))
+        self.bends = fig = _figure("bends", 230, (0, 184))
         fig.yaxis.ticker = [0, 45, 90, 135, 180]
         self.lines = ColumnDataSource({"xs": [], "ys": [], "dash": []})
         self.dots = [ColumnDataSource({"x": [], "y": []}) for _ in SHADES]
@@ -58,11 +57,11 @@ class Steady:
 
     @property
     def view(self):
-        return [self.title, _pane(self.bends), self.key, self.says, self.deep]
+        return [self.title, pane(self.bends), self.key, self.says, self.deep]
 
     def _deep(self):
         """What is open at the level Research: the rates, and the tables of scaling."""
-        self.pair = grow, turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)
+        self.pair = grow, turn = _figure("growth", 170), _figure("turning", 170)
         for name, colour in COLOURS.items():
             line, runs = ColumnDataSource({"x": [], "growth": [], "turning": []}), ColumnDataSource({"x": [], "y": []})
             draw(grow, Line, "x", "growth", source=line, line_color=colour, line_width=2)
@@ -72,7 +71,7 @@ class Steady:
         for fig in self.pair:
             fig.x_range.update(start=self.bends.x_range.start, end=self.bends.x_range.end)
         self._draw_rates()
-        row = pn.Row(*(_pane(fig, flex="1 1 240px") for fig in self.pair), margin=0,
+        row = pn.Row(*(pane(fig, **{"flex": "1 1 240px", "min-width": "0"}) for fig in self.pair), margin=0,
                      styles={"display": "flex", "flex-flow": "row wrap"}, sizing_mode="stretch_width")  # fmt: skip
         named = listed("maps.branches")
         key = "".join(f'<span style="color: {OF_KEY.get(colour, colour)}">■</span> {named[name]} &emsp; '
@@ -216,18 +215,6 @@ def _table(cells, columns):
     return f"<table><tr><th></th>{head}</tr>{rows}</table>"
 
 
-def _figure(name, height, span):
-    fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*(span or (0, 1))))
-    fig.name = name
-    fig.update(sizing_mode="stretch_width", height=height, min_border_left=44)
-    label = say(f"maps.labels.{name.removeprefix('maps-')}")
-    fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
-    fig.xaxis.axis_label = f"{listed('maps.quantities')['spin']}, {unit_of('spin')}"
-    fig.xaxis.axis_label_text_font_size = "12px"
-    fig.xaxis.axis_label_text_color = INK
-    return fig
-
-
-def _pane(figure, flex=None):
-    styles = {"flex": flex, "min-width": "0"} if flex else {}
-    return pn.pane.Bokeh(figure, sizing_mode="stretch_width", height=figure.height, margin=0, styles=styles)
+def _figure(name, height, span=(0, 1)):
+    return plain(say(f"maps.labels.{name}"), height, name=f"maps-{name}", x_range=(0, 1), y_range=span,
+                 min_border_left=44, x_axis_label=with_unit("spin"))  # fmt: skip

@@ -3,13 +3,10 @@ by hand, for the next file with the same columns."""
 
 from dataclasses import replace
 
-import panel as pn
-
 from app.model.measured.points import VIEWS
 from app.text import say
-from app.widgets.cards import flow, note, words
-from app.widgets.choice import Choice
-from app.widgets.forms import Menu
+from app.widgets.cards import column, flow, note, words
+from app.widgets.forms import Choice, Menu
 
 REMEMBERED = 20  # tables
 DRAWN = """<svg width="150" height="52" viewBox="0 0 150 52" fill="none" stroke="currentColor" stroke-width="1.5"
@@ -26,17 +23,16 @@ class Asks:
         self.seen = Choice({say(f"measure.views.{view}"): view for view in VIEWS}, VIEWS[0])
         self._of_view = flow(words(note(say("measure.which_view")), sizing_mode=None), words(DRAWN, sizing_mode=None),
                              self.seen)  # fmt: skip
-        self.view = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.view = column()
         for part in (self.run, self.seen):
             part.on("value", self._answered)
 
     def show(self, table, anew):
         """Asks what this table leaves open; returns it, if not anew, with what was chosen before for such columns."""
         table = table if anew else self._as_before(table)
-        self._table = None  # no answer yet
         runs = list(table.runs)
-        self.run.param.update(options={run: run for run in runs or [""]}, value=table.run)
-        self.seen.value = table.view or VIEWS[0]
+        self.run.put(options={run: run for run in runs or [""]}, value=table.run)
+        self.seen.put(value=table.view or VIEWS[0])
         self.view.objects = [self.run] * (len(runs) > 1) + [self._of_view] * bool(table.view)
         self._table = table
         return table

@@ -4,14 +4,13 @@ import html
 from dataclasses import replace
 
 import numpy as np
-import panel as pn
 
 from app.model.measured.names import UNITS
 from app.model.measured.table import taken_as
 from app.text import say, written
+from app.widgets import cards
 from app.widgets.cards import flow, note, words
-from app.widgets.forms import Field, Menu
-from app.widgets.numbers import typed_number
+from app.widgets.forms import Field, Menu, typed_number
 
 FIRST = 4  # values
 
@@ -22,8 +21,8 @@ class Columns:
 
     def __init__(self, changed, wrong):
         self._changed, self._wrong, self._table, self._errors = changed, wrong, None, ()
-        self.rate, self._of_rate = None, pn.Column(sizing_mode="stretch_width", margin=0)
-        self.view = pn.Column(sizing_mode="stretch_width", margin=(8, 0))
+        self.rate, self._of_rate = None, cards.column()
+        self.view = cards.column(margin=(8, 0))
 
     @property
     def frames_a_second(self):

@@ -3,26 +3,15 @@
 from functools import partial
 
 import numpy as np
-import panel as pn
-from bokeh.models import (
-    BoxAnnotation,
-    ColumnDataSource,
-    FixedTicker,
-    Label,
-    Line,
-    Range1d,
-    Scatter,
-    Span,
-    VArea,
-    Whisker,
-)
+from bokeh.models import BoxAnnotation, ColumnDataSource, FixedTicker, Label, Line, Range1d, Scatter, VArea, Whisker
 
-from app.bundle import call
+from app.bundle import call, pack
 from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
-from app.widgets.cards import words
+from app.widgets.cards import column, words
+from app.widgets.film_stage import clear_motion, put_motion
 from app.widgets.forms import Stretch
-from app.widgets.plots import draw, on_pointer, plain
+from app.widgets.plots import draw, on_pointer, pane, plain, rule
 
 SHOWN = dict.fromkeys(("tilt", "line", "azimuth"), 180 / np.pi) | dict.fromkeys(("spin", "precession"), 0.5 / np.pi)
 """{quantity: the factor from the unit of the data to that of the axis}; for lengths 1000, to mm."""
@@ -37,15 +26,19 @@ def size_of(quantity):
     return SHOWN.get(quantity, 1e3)
 
 
-def named(fig, label):
-    """The figure, named as an image for screen readers."""
-    fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
-    return fig
-
-
 def part_of_time(does):
     """A stretch in s."""
     return Stretch(say("measure.part"), does, unit="s", margin=(6, 0, 6, LEFT), sizing_mode="stretch_width")
+
+
+def show_film(stage, shown, outline):
+    """Shows a Shown on the stage; None: nothing. outline: (k, 2), that of the body."""
+    if shown is None:
+        clear_motion(stage)
+        return
+    start = shown.t[0] + 0.6 * (shown.t[-1] - shown.t[0])
+    label = say("measure.axis" if shown.azimuths else "measure.axis_tilt")
+    put_motion(stage, shown.t, shown.motion, outline, start, measured=pack(shown.axis), measured_label=label)
 
 
 def _heard(pulled, attr, old, new):
@@ -61,7 +54,7 @@ class Pictures:
     def __init__(self, pulled):
         self._hand = ColumnDataSource({"start": [0.0]})
         self._hand.on_change("data", partial(_heard, pulled))
-        self.view = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.view = column()
         self._parts, self._starts = {}, []
 
     def clear(self):
@@ -77,15 +70,11 @@ class Pictures:
         high = HEIGHT if len(data.series) < 3 else SMALL
         self._parts = {name: _Picture(name, series, x_range, high) for name, series in data.series.items()}
         figures = [fig for part in self._parts.values() for fig in (part.fig, part.rest)]
-        spans = [
-            Span(dimension="height", level="overlay", line_color=COLOURS["accent"], line_width=1.5) for _ in figures
-        ]
-        self._starts = [Span(location=start, dimension="height", line_color=INK, line_width=1.5, line_dash=[5, 4])
-                        for _ in figures]  # fmt: skip
+        spans = [rule(fig, "height", None, level="overlay", line_color=COLOURS["accent"], line_width=1.5)
+                 for fig in figures]  # fmt: skip
+        self._starts = [rule(fig, "height", start, line_color=INK, line_width=1.5, line_dash=[5, 4]) for fig in figures]
         curves = [part.curve for part in self._parts.values()]
-        for fig, span, begun in zip(figures, spans, self._starts, strict=True):
-            fig.add_layout(span)
-            fig.add_layout(begun)
+        for fig in figures:
             pull = call("pullFilm", fig=fig, hand=self._hand, starts=self._starts, curves=curves)
             on_pointer(fig, pull, "mousemove")
         figures[0].js_on_change("inner_width", call("moveLines", spans=spans, clock="film"))
@@ -110,11 +99,11 @@ class _Picture:
     def __init__(self, name, series, x_range, high):
         self.name, self.size = name, size_of(name)
         title = say(f"measure.quantities.{name}")
-        self.fig = named(plain(x_range=x_range), say("measure.picture", name=title))
-        self.rest = named(plain(x_range=x_range, y_range=Range1d(-3.5, 3.5)), say("measure.rest", name=title))
+        look = {"x_range": x_range, "min_border_left": LEFT}
+        self.fig = plain(say("measure.picture", name=title), high, **look)
+        self.rest = plain(say("measure.rest", name=title), REST, y_range=(-3.5, 3.5), **look)
         self.curve, self.left = ColumnDataSource(NOTHING), ColumnDataSource(NOTHING)
-        for fig, height in ((self.fig, high), (self.rest, REST)):
-            fig.update(sizing_mode="stretch_width", height=height, min_border_left=LEFT)
+        for fig in (self.fig, self.rest):
             fig.xaxis.visible, fig.xgrid.visible = False, False
             fig.yaxis.update(axis_line_color=None, major_tick_line_color=None)
         self._dots(series)
@@ -123,8 +112,7 @@ class _Picture:
         self.rest.yaxis.ticker = FixedTicker(ticks=[0])
         self.rest.ygrid.ticker = self.rest.yaxis.ticker
         self.head = words(self._head())
-        self.panes = [self.head, *(pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=height, margin=0)
-                                   for fig, height in ((self.fig, high), (self.rest, REST)))]  # fmt: skip
+        self.panes = [self.head, pane(self.fig), pane(self.rest)]
 
     def _head(self, after=""):
         unit, title = say(f"measure.units.{self.name}"), say(f"measure.quantities.{self.name}")
@@ -163,18 +151,17 @@ def constants(kept):
     panes = []
     for name, constant in kept.items():
         colour = COLOURS["jellett" if name == "K_J" else "routh"]
-        fig = named(plain(), say("measure.kept.picture", name=say(f"measure.kept.{name}")))
-        fig.update(sizing_mode="stretch_width", height=150, min_border_left=LEFT)
+        fig = plain(say("measure.kept.picture", name=say(f"measure.kept.{name}")), 150, min_border_left=LEFT)
         fig.xgrid.visible = False
         t, values, errors = constant.t, constant.values, constant.errors
         found = ColumnDataSource({"t": t, "low": values - errors, "y": values, "high": values + errors})
         draw(fig, VArea, "t", y1="low", y2="high", source=found, fill_color=colour, fill_alpha=0.2)
         draw(fig, Line, "t", "y", source=found, line_color=colour, line_width=1.5)
         mean, _ = constant.mean
-        fig.add_layout(Span(location=mean, dimension="width", line_color=INK, line_dash=[6, 4]))
+        rule(fig, "width", mean, line_color=INK, line_dash=[6, 4])
         middle, half = mean, max(1.2 * float(np.abs(values - mean).max() + errors.max()), 0.1 * abs(mean))
         fig.y_range = Range1d(middle - half, middle + half)
         fig.yaxis.ticker.desired_num_ticks = 4
         head = f"<b>{say(f'measure.kept.{name}')}</b> <span class='key'>{say('measure.kept.band')}</span>"
-        panes += [words(head), pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=150, margin=0)]
+        panes += [words(head), pane(fig)]
     return panes

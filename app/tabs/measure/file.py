@@ -5,19 +5,19 @@ whole, in pieces, and is opened here: by a program of its own, without a file on
 
 import base64
 import binascii
-from functools import partial
 
 import param
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.measured.cells import MeasuredError
 from app.model.measured.table import text_inside
 from app.model.measured.unpack import HEAD, LARGEST, MOST, PACKED
-from app.model.runs import Run, Stopped
+from app.model.runs import Run
 from app.state import asked
 from app.text import say
 from app.widgets.cards import note
+from app.widgets.failure import unless_stopped
+from app.widgets.forms import hear
 
 
 class Filmed(param.Parameterized):
@@ -53,9 +53,7 @@ class Brought:
     def __init__(self, runs, take, refuse, said):
         self._runs, self._take, self._refuse, self._said, self._pieces = runs, take, refuse, said, []
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
-        at_once(self.file, "table", "piece")
-        self.file.param.watch(asked.heard(self._table), "table")
-        self.file.param.watch(asked.heard(self._piece), "piece")
+        hear(self.file, table=self._table, piece=self._piece)
 
     def _table(self, event):
         kinds = asked.text, asked.number, asked.number, asked.text, asked.number
@@ -82,13 +80,5 @@ class Brought:
         if len(self._pieces) >= count:
             data, self._pieces = b"".join(self._pieces), []
             self._said.object = f'<div role="status">{note(say("measure.opens"))}</div>'
-            self._runs.begin(Run(lambda run: text_inside(data), partial(self._opened, name)), "open")
-
-    def _opened(self, name, result):
-        if isinstance(result, MeasuredError):
-            self._refuse(result)
-        elif isinstance(result, Exception):
-            if not isinstance(result, Stopped):
-                raise result
-        else:
-            self._take(*result, name=name)
+            done = unless_stopped(lambda found: self._take(*found, name=name), self._refuse, MeasuredError)
+            self._runs.begin(Run(lambda run: text_inside(data), done), "open")

@@ -19,17 +19,17 @@ from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, 
 from app.model.runs import Run, Runs, Stopped
 from app.tabs.measure.asks import Asks
 from app.tabs.measure.columns import Columns
-from app.tabs.measure.figures import Pictures, constants, part_of_time
+from app.tabs.measure.figures import Pictures, constants, part_of_time, show_film
 from app.tabs.measure.file import Brought, Filmed
 from app.tabs.measure.home import Home
-from app.tabs.measure.places import head, in_places
+from app.tabs.measure.places import PLACES, head
 from app.tabs.measure.recipe import recipes
-from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words
 from app.text import listed, say, told
-from app.widgets.cards import alert, flow, note, words
-from app.widgets.choice import Choice
-from app.widgets.forms import Button, Checks
+from app.widgets.cards import alert, areas, column, flow, note, words
+from app.widgets.failure import unless_stopped
+from app.widgets.film_stage import FilmStage
+from app.widgets.forms import Button, Checks, Choice
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
@@ -43,15 +43,17 @@ class Measure:
         self._scene, self._runs, self._run = scene, runs or Runs(), None
         self._guess = None  # the Run of the motion that begins with the first values
         self._table, self._data, self._part, self._example, self._name = None, None, (0.0, 0.0), "", ""
-        self._read, self._of_file, self._silent, self.filmed = None, None, False, Filmed()
+        self._read, self._of_file, self.filmed = None, None, Filmed()
         self._found, self._kept, self._thinned, self._notes = None, {}, 1, ""
         self._saved = ()  # the fits of a film that is being opened
         self.said, self.about = words(), words()
         self.file = Brought(self._runs, self.take, self._not_taken, self.said).file
         self.asks = Asks(self._answered)
-        self.stage, self.pictures = film_stage(), Pictures(self._pulled)
+        self.stage = FilmStage(clock="film", label=say("measure.stage.label"), none=say("measure.stage.none"),
+                               sizing_mode="stretch_width", height=300)  # fmt: skip
+        self.pictures = Pictures(self._pulled)
         self.columns = Columns(self._by_hand, self._wrong)
-        self.constants, self.over, self.below = (pn.Column(sizing_mode="stretch_width", margin=0) for _ in range(3))
+        self.constants, self.over, self.below = (column() for _ in range(3))
         self._make_controls()
         self.found = words(note(say("measure.nothing_yet")), style=TABLE)
         self.home = Home(self._runs, self.filmed)
@@ -82,14 +84,11 @@ class Measure:
             wrong = self.said.object
             self.take_example(FIRST)
             self.said.object = wrong or self.said.object
-        parts = {
-            "over": [self.said, self.over, self.asks.view, self.pictures.view, self.part],
-            "found": [self.stage, self.found, self.file, flow(self.start, self.cancel, self.leave, self.take_home),
-                      self.home.view, flow(*examples), words(note(say("measure.private"))), flow(*self.recipes),
-                      self.about, flow(self.law), self.loose],
-            "table": [self.below, head("constants"), self.constants],
-        }  # fmt: skip
-        return in_places(parts)
+        found = [self.stage, self.found, self.file, flow(self.start, self.cancel, self.leave, self.take_home),
+                 self.home.view, flow(*examples), words(note(say("measure.private"))), flow(*self.recipes),
+                 self.about, flow(self.law), self.loose]  # fmt: skip
+        over = [self.said, self.over, self.asks.view, self.pictures.view, self.part]
+        return areas(PLACES, over=over, found=found, table=[self.below, head("constants"), self.constants])
 
     def show(self, scene):
         """From now on films are of this scene's top; a fit that was made stays."""
@@ -130,9 +129,8 @@ class Measure:
 
     def _choose(self, law, loose):
         """Chooses what is to be fitted before its data are there."""
-        self._silent = True
-        self.law.value, self.loose.value = law, list(loose)
-        self._silent = False
+        self.law.put(value=law)
+        self.loose.put(value=list(loose))
 
     # ---- input of data ----
 
@@ -246,7 +244,7 @@ class Measure:
 
     def _draw(self):
         """Discards the previous fit, and shows the data with a motion that begins with the first values."""
-        if self._data is None or self._silent:
+        if self._data is None:
             return
         self._found, self._kept, self._part = None, {}, tuple(map(float, self.part.value))
         self.leave.visible = False
@@ -261,7 +259,7 @@ class Measure:
         self.start.disabled, self.found.object = False, note(say("measure.ready"))
         top, scales, *_ = self._body
         model = self._models()[1]
-        self._guess = Run(lambda run: (placed(model, data), kept(data, top, scales)), self._drawn)
+        self._guess = Run(lambda run: (placed(model, data), kept(data, top, scales)), unless_stopped(self._drawn))
         self._runs.begin(self._guess, "guess")
         if self._run:
             self._run.forget()
@@ -280,10 +278,6 @@ class Measure:
         return bool(self._saved) or (self._is_whole_example and is_stored(self.law.value, self._loose))
 
     def _drawn(self, result):
-        if isinstance(result, Exception):
-            if not isinstance(result, Stopped):
-                raise result
-            return
         first, self._kept = result
         if self._found is None:  # else the fit was faster
             self.pictures.show(first)

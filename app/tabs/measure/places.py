@@ -1,7 +1,5 @@
 """Where the parts of the tab Measure stand."""
 
-import panel as pn
-
 from app.text import say
 from app.widgets.cards import note, words
 
@@ -13,13 +11,6 @@ PLACES = """
 @media (max-width: 800px) { :host { padding: 12px 16px 16px;
   grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
 """
-
-
-def in_places(parts):
-    """The tab. parts: {its place: [what stands there]}."""
-    sides = [pn.Column(*part, css_classes=[place], sizing_mode="stretch_width", margin=0)
-             for place, part in parts.items()]  # fmt: skip
-    return pn.Column(*sides, sizing_mode="stretch_width", margin=0, stylesheets=[PLACES])
 
 
 def head(name):
