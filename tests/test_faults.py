@@ -178,7 +178,7 @@ def test_the_reason_begins_with_its_name_for_which_the_page_has_words(reason, ho
     socket.request = SimpleNamespace(remote_ip="127.0.0.1")
     socket.token = generate_jwt_token(MINE, secret_key=SECRET, signed=True, expiration=how.get("expiration", FRESH))
     socket.close = lambda *how: closed.append(how)
-    run(socket._enter())
+    socket.open()
     [(code, said)] = closed
     assert code == 4000 and said.startswith(f"{reason}: ") and reason in REASONS
     for language in LANGUAGES:
