@@ -13,6 +13,7 @@ import param
 from bokeh.models import CustomJS
 from panel.custom import JSComponent
 from panel.io.resources import component_resource_path
+from param.parameterized import no_instance_params
 
 from app.text import listed
 from app.together import set_together
@@ -84,6 +85,7 @@ class Bundled(JSComponent):
     _bundle = BUNDLE
 
     def __init__(self, **params):
+        no_instance_params(type(self))  # a copy of each parameter for each part was half the cost of making it
         super().__init__(**({"texts": self.says()} | params))
 
     def tell(self, **values):

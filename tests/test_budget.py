@@ -30,7 +30,8 @@ class Clock:
 
     def __init__(self, monkeypatch):
         self.now = 0.0
-        monkeypatch.setattr("app.server.admission.time", self)
+        for module in ("admission", "loop"):
+            monkeypatch.setattr(f"app.server.{module}.time", self)
         monkeypatch.setattr(Budget, "_paid", 0.0)
 
     def thread_time(self):
@@ -48,32 +49,25 @@ def test_what_a_coroutine_does_itself_is_counted_and_not_what_others_do_while_it
 
     async def mine():
         clock.work(0.05)
+        asyncio.get_running_loop().call_soon(clock.work, 0.8)  # of somebody else
         with suppress(ZeroDivisionError):
-            await asyncio.gather(asyncio.sleep(0.05), others())
+            await asyncio.gather(asyncio.sleep(0.05), part())
         clock.work(0.05)
         return "done"
 
-    async def others():
+    async def part():
         clock.work(0.2)
         raise ZeroDivisionError
 
-    assert run(budget.steps(mine())) == "done"
-    assert budget.spent == pytest.approx(0.1)
+    async def charged():
+        asyncio.get_running_loop().set_task_factory(charging)
+        CHARGED.set(budget)
+        task = asyncio.create_task(mine())
+        CHARGED.set(None)
+        return await task
 
-
-def test_what_is_done_for_another_in_the_midst_is_counted_to_him_and_nothing_twice(monkeypatch):
-    clock = Clock(monkeypatch)
-    mine, his = Budget(), Budget()
-    with mine.work():
-        clock.work(1)
-        with his.work():
-            clock.work(2)
-            with mine.work():
-                clock.work(4)
-        with mine.work():
-            clock.work(8)
-    clock.work(16)
-    assert mine.spent == pytest.approx(13) and his.spent == pytest.approx(2)
+    assert run(charged()) == "done"
+    assert budget.spent == pytest.approx(0.3)
 
 
 class Server:
@@ -156,7 +150,8 @@ def test_each_frame_of_a_websocket_is_charged(monkeypatch):
     reads = []
 
     class Handler(WebSocketHandler):
-        _paced, address, _mine = Socket._paced, "here", SimpleNamespace(spend=reads.append, wait=lambda: 0, told=False)
+        _paced, address, told = Socket._paced, "here", False
+        budget = SimpleNamespace(spend=reads.append, wait=lambda: 0)
 
         def __init__(self, *given):
             super().__init__(*given)
@@ -240,8 +235,8 @@ def test_a_hand_that_drags_for_a_minute_is_read_at_once(monkeypatch):
     assert max(late) < 0.01
 
 
-def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
-    """With a stopped clock: a page costs 0.08 s and its frame 0.0003, and at most 5 s are saved up."""
+def test_who_asks_for_much_again_and_again_waits(monkeypatch, caplog):
+    """With a stopped clock: a message costs 0.08 s and its frame 0.0003, and at most 5 s are saved up."""
     Clock(monkeypatch)
     waited = []
 
@@ -249,20 +244,16 @@ def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
         waited.append(seconds)
 
     async def nothing(*_):
-        return SimpleNamespace(msgtype="PULL-DOC-REQ")
+        pass
 
     monkeypatch.setattr("app.server.sockets.asyncio", SimpleNamespace(sleep=asleep))
     socket = Socket.__new__(Socket)
-    socket.connection = SimpleNamespace(session=SimpleNamespace())
-    socket.application = SimpleNamespace(admission=SimpleNamespace(moved=lambda took: None))
-    socket.ws_connection = SimpleNamespace(is_closing=lambda: False)
-    socket.request, socket.receiver = SimpleNamespace(remote_ip="10.0.0.7"), SimpleNamespace(consume=nothing)
-    socket._answer = nothing
+    socket.budget, socket.request = Budget(), SimpleNamespace(remote_ip="10.0.0.7")
 
     async def ask(times):
         read = socket._paced(nothing)
         for _ in range(times):
-            await socket.on_message("")
+            socket.budget.spend(0.08)
             for _ in range(3):  # header, mask and content of a frame
                 await read()
 

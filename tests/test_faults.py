@@ -178,7 +178,7 @@ def test_the_reason_begins_with_its_name_for_which_the_page_has_words(reason, ho
     socket.request = SimpleNamespace(remote_ip="127.0.0.1")
     socket.token = generate_jwt_token(MINE, secret_key=SECRET, signed=True, expiration=how.get("expiration", FRESH))
     socket.close = lambda *how: closed.append(how)
-    run(socket._enter())
+    socket.open()
     [(code, said)] = closed
     assert code == 4000 and said.startswith(f"{reason}: ") and reason in REASONS
     for language in LANGUAGES:
@@ -314,7 +314,7 @@ def test_it_serves_on_a_full_disk_and_where_the_system_lacks_what_windows_lacks(
         until(lambda: answers(f"http://127.0.0.1:{port}/liveness"))
         assert run(Visitor.enter(f"http://127.0.0.1:{port}/app")).component("LabView")
         done = subprocess.run([*command, "--workers=2"], cwd=ROOT, capture_output=True, text=True)
-        assert done.returncode == 2 and "--workers is '2'; allowed is 1 on this system" in done.stderr
+        assert done.returncode == 2 and "'2'; allowed is a whole number from 1 to 1: this system" in done.stderr
     finally:
         process.terminate()
         assert process.wait(60) == 0

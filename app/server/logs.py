@@ -6,6 +6,7 @@ import platform
 import re
 import sys
 import time
+from contextlib import suppress
 from ipaddress import ip_address
 
 from tornado.iostream import StreamClosedError
@@ -16,17 +17,14 @@ WORD = re.compile(r"(?<![\w.:])[0-9a-fA-F]*[.:][0-9a-fA-F.:]*[0-9a-fA-F:](?![\w]
 
 
 def without_addresses(line):
-    """The line with - in place of each address."""
+    """The line with - in place of each address and its port."""
 
     def replaced(found):
         word = found[0]
-        address, _, port = word.rpartition(":")
-        for text, after in ((word, ""), (address, "" if port else ":")):
-            try:
+        for text in (word, word.rpartition(":")[0]):
+            with suppress(ValueError):
                 ip_address(text)
-            except ValueError:
-                continue
-            return "-" + after
+                return "-:" if word[-1] == ":" and text != word else "-"
         return word
 
     return WORD.sub(replaced, line)

@@ -1,6 +1,8 @@
 """How the event loop of a server works: all of a session's code in its own thread, charged to that session."""
 
 import asyncio
+import time
+from collections.abc import Coroutine
 from contextvars import ContextVar
 
 CHARGED = ContextVar("charged", default=None)  # the Budget of the session for which something is done, now or later
@@ -21,8 +23,34 @@ def in_one_thread(loop):
     loop.run_in_executor = at_once
 
 
+class Charged(Coroutine):
+    """A coroutine that charges to a Budget what it does itself, and not what others do while it waits."""
+
+    def __init__(self, coroutine, budget):
+        self._coroutine, self._budget = coroutine, budget
+
+    def _step(self, step, *given):
+        start = time.thread_time()  # of this thread: runs beside it are others'
+        try:
+            return step(*given)
+        finally:
+            self._budget.spend(time.thread_time() - start)
+
+    def send(self, value):
+        return self._step(self._coroutine.send, value)
+
+    def throw(self, *error):
+        return self._step(self._coroutine.throw, *error)
+
+    def close(self):
+        self._coroutine.close()
+
+    def __await__(self):
+        return self._coroutine.__await__()
+
+
 def charging(loop, coroutine, **options):
     """A task factory: each step of a task is charged to the session whose message, timer or callback began it."""
     context = options.get("context")
     budget = context.get(CHARGED) if context else CHARGED.get()
-    return asyncio.Task(coroutine if budget is None else budget.steps(coroutine), loop=loop, **options)
+    return asyncio.Task(coroutine if budget is None else Charged(coroutine, budget), loop=loop, **options)

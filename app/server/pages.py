@@ -1,8 +1,7 @@
-"""The page: generated once, handed out in turn."""
+"""The page: generated once."""
 
 import re
 import secrets
-import time
 
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from panel.io.resources import Resources
@@ -10,7 +9,6 @@ from panel.io.server import server_html_page_for_session
 
 from app import text
 from app.server.answers import Handler, Root
-from app.server.logs import refused
 from app.widgets.waiting import waiting
 
 UNUSED = ("bokeh-gl", "bokeh-mathjax")
@@ -40,38 +38,25 @@ class Sheet:
 
 
 class Page(Handler):
-    """The page, from one template session; a visitor's own session is created when the browser opens the socket. Pages
-    are handed out one at a time, in turn among the addresses that ask."""
+    """The page, from one template session; a visitor's own session is created when the browser opens the socket."""
 
-    async def get(self):
+    def get(self):
         if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
             Root.get(self)
             return
         app, address = self.application, self.request.remote_ip
         if not app.tippe.lets(self.request.host):
-            app.admission.refused["stranger"] += 1
-            refused(address, "stranger", "refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
-            self.refused = True
+            self.refuse("stranger", "refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
             self.say(403, self.words("stranger"))
-            return
-        hurried = app.admission.pages.waiting(address) >= app.tippe.sessions_per_address
-        refusal = "hurried" if hurried else app.admission.refusal(address)
-        if refusal:
-            app.admission.refused[refusal] += 1
+        elif refusal := app.admission.refusal(address):
             sentence = text.say(f"main.server.{refusal}", text.DEFAULT)
-            refused(address, refusal, "refused %s a page: %s", address, sentence)
-            self.refused = True
+            self.refuse(refusal, "refused %s a page: %s", address, sentence)
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
-            return
-        turn = await app.admission.pages.turn(address)
-        start = time.monotonic()
-        try:
+        else:
             nonce = secrets.token_urlsafe(16)
             self.set_header("Content-Type", "text/html; charset=utf-8")
             self.set_policy(nonce)
             self.finish(app.sheet.page(self.language, self._token(), nonce))
-        finally:
-            turn.done(time.monotonic() - start)
 
     def _token(self):
         """The token that opens a session, with the data from which its page is made."""

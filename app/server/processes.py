@@ -6,44 +6,33 @@ import logging
 import os
 from contextlib import suppress
 
+from tornado.process import fork_processes
+
 from app.server.memory import memory
 
 log = logging.getLogger("tippe")
 
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
 REPLACE = 10  # the exit code of a worker that is to be replaced
-MOST_LOST = 100  # crashed workers, after which the server itself must be at fault
+MOST_LOST = 100  # workers that crashed or were replaced, after which the server itself must be at fault
 MEGABYTE = 2**20
 
 
 def workers(count, board):
-    """Starts count worker processes. One that ends is replaced, and all end with this process, however it ends.
+    """Starts count worker processes. One that crashes is replaced, and all end with this process, however it ends.
     Returns, in each of them, the end of a pipe whose other end this process holds."""
     held, ours = os.pipe()
-    places, lost = {}, 0  # process: its row of the board
     try:
-        while lost <= MOST_LOST:
-            for place in {*range(count)} - {*places.values()}:
-                process = os.fork()
-                if not process:
-                    os.close(ours)
-                    board.mine = place
-                    return held
-                places[process] = place
-            process, status = os.wait()
-            place, code = places.pop(process, None), os.waitstatus_to_exitcode(status)
-            if place is not None and code not in (0, REPLACE):
-                lost += 1
-                log.warning("lost worker %d, process %d: %s", place, process,
-                            f"exit code {code}" if code >= 0 else f"signal {-code}")  # fmt: skip
-        raise SystemExit(1)
-    except SystemExit:  # by __main__ at SIGTERM, or as above
+        board.mine = fork_processes(count, MOST_LOST)
+    except SystemExit:  # by __main__ at SIGTERM
         log.info("stopping the workers")
         os.close(ours)
         with suppress(ChildProcessError):
             while True:
                 os.wait()
         raise
+    os.close(ours)
+    return held
 
 
 def tidier(admission, replace):

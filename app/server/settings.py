@@ -14,29 +14,23 @@ from app.model.votes.ballots import store
 from app.server.memory import FILLED, memory_limit
 
 OF_WORKER, OF_PAGE = 300e6, 8e6  # bytes; a page that has seen all rooms has twice as many
+FORKS = hasattr(os, "fork")
+FORKLESS = "" if FORKS else ": this system cannot fork"  # for another worker, or one that takes the place of one
 PORT = re.compile(r":(\d+|\*)$")
 
 
 # Parsers of the texts; each raises a ValueError that says what is allowed.
 
 
-def whole(low, high):
-    """Parser of a whole number from low to high."""
+def whole(low, high, why=""):
+    """Parser of a whole number from low to high; why: not more."""
 
     def taken(text):
         if not re.fullmatch(r"\d{1,9}", text) or not low <= int(text) <= high:
-            raise ValueError(f"a whole number from {low} to {high}")
+            raise ValueError(f"a whole number from {low} to {high}{why}")
         return int(text)
 
     return taken
-
-
-def forked(text):
-    """The number of processes."""
-    count = whole(1, 64)(text)
-    if count > 1 and not hasattr(os, "fork"):
-        raise ValueError("1 on this system: it cannot fork")
-    return count
 
 
 def matching(pattern, allowed):
@@ -87,11 +81,6 @@ def measured(text):
     return int(text)
 
 
-def bound(text):
-    """The bound of a worker's memory; it needs a system on which another worker can take its place."""
-    return whole(0, 1_000_000 if hasattr(os, "fork") else 0)(text)
-
-
 def fitting(workers):
     """How many pages of one room each of so many workers has memory for, at most 250."""
     return int(max(1, min(250, (FILLED * memory_limit() / workers - OF_WORKER) // OF_PAGE)))
@@ -111,7 +100,7 @@ class Settings:
     origins: tuple = _setting((), "names of the server, host or host:port, separated by commas; without it, any", names)
     frames: str = _setting("'self'", "pages that may show this one in a frame, as in a content security policy",
                            matching(r"[^;,\r\n]*", "sources of a CSP, by spaces"))  # fmt: skip
-    workers: int = _setting(1, "processes on this port", forked)
+    workers: int = _setting(1, "processes on this port", whole(1, 64 if FORKS else 1, FORKLESS))
     sessions: int = _setting(fitting(1), "pages open at once, in each worker; by default what fits into the memory",
                              whole(1, 100_000))  # fmt: skip
     sessions_per_address: int = _setting(
@@ -133,7 +122,8 @@ class Settings:
     log_format: str = _setting("text", "text, or json: one object per line", matching("text|json", "text or json"))
     log_addresses: int = _setting(1, "0: the log has - in place of visitors' addresses", whole(0, 1))
     metrics: int = _setting(0, "1: /metrics is there, for Prometheus", measured)
-    memory: int = _setting(0, "MB of memory above which a worker without visitors is replaced; 0: never", bound)
+    memory: int = _setting(0, "MB of memory above which a worker without visitors is replaced; 0: never",
+                           whole(0, 1_000_000 if FORKS else 0, FORKLESS))  # fmt: skip
     drain: int = _setting(5, "s at most in which open pages are sent elsewhere, one by one, at SIGTERM", whole(0, 3600))
 
     @classmethod

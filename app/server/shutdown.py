@@ -47,14 +47,9 @@ class GracefulShutdown:
         apart = min(APART, self._settings.drain / max(len(told), 1))
         for count, each in enumerate(told):
             if count:
-                await self._wait(apart)
+                await asyncio.sleep(0 if self._at_once else apart)
             each.close(1001, text.say("main.server.stopping", text.DEFAULT))
         self._http.stop()  # accepts nobody any more
         await asyncio.sleep(LAST)
         self._server.stop(wait=False)
         IOLoop.current().stop()
-
-    async def _wait(self, seconds):
-        for _ in range(10):
-            if not self._at_once:
-                await asyncio.sleep(seconds / 10)

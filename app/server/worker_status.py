@@ -19,10 +19,10 @@ from app.turns import rooms
 STEP = 1.0  # s
 HEARD = 15.0  # s after which a worker that reports nothing counts as ended
 REMEMBERED = 15  # steps over which the longest delay is reported
-REFUSALS = ("stranger", "full", "crowded", "hurried", "stopping", "ended", "failed", "connection", "message")
+REFUSALS = ("stranger", "full", "crowded", "stopping", "ended", "failed", "connection", "message")
 POOLS = {"run": WORK, "later": LATER, "file": FILES, "map": MAPS}
 # Each reports how many wait, how many had their turn, and how long those waited.
-QUEUES = ("page", "session", "room", *POOLS)
+QUEUES = ("session", "room", *POOLS)
 STATES = ("full", "stopping", "compiling")
 FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files", "moves", "moving", "errors",
           "processor", "started", "away",
@@ -79,7 +79,7 @@ class Watch:
     def look(self):
         """Writes the present state."""
         admission = self._admission
-        queues = {"page": admission.pages, "session": admission.making, "room": rooms()} | POOLS
+        queues = {"session": admission.making, "room": rooms()} | POOLS
         self.board.write(
             full=admission.full, stopping=admission.stopping, compiling=compiling(), sessions=len(admission.sessions),
             connections=len(admission.sockets), delay=max(self._delays), memory=memory(),

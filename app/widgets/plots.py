@@ -103,4 +103,6 @@ def draw(fig, kind, *xy, source, level="glyph", **looks):
     for selections that are not used here: a page had half as many parts again, all to be created, counted and sent."""
     glyph = kind(**dict(zip(("x", "y"), xy, strict=False)), **looks)
     of_all = fig.renderers[0].view.filter if fig.renderers else AllIndices()
+    if fig.renderers:  # nothing is selected, so one policy serves all sources
+        source.selection_policy = fig.renderers[0].data_source.selection_policy
     return fig.add_glyph(source, glyph, level=level, view=CDSView(filter=of_all))

@@ -23,15 +23,20 @@ AWAY = 600.0  # s after which a room of more parts gives them back; what was ent
 log = logging.getLogger("tippe")
 
 
+def size(view):
+    """How many parts a view has. (Panel's select() asks each of them for its parameters.)"""
+    return 1 + sum(map(size, getattr(view, "objects", None) or ()))
+
+
 def taken_apart(view, most=MOST):
     """Takes the content out of a view of many parts, and returns functions, each of which puts some of it back."""
-    if not isinstance(view, pn.Column) or len(view.select()) <= most:
+    if not isinstance(view, pn.Column) or size(view) <= most:
         return []
     parts, view.objects = [*view.objects], []
     puts, begin = [], 0
     while begin < len(parts):
-        end, count = begin + 1, len(parts[begin].select())
-        while end < len(parts) and (count := count + len(parts[end].select())) <= most:
+        end, count = begin + 1, size(parts[begin])
+        while end < len(parts) and (count := count + size(parts[end])) <= most:
             end += 1
         inside = taken_apart(parts[begin], most)
 
@@ -90,7 +95,7 @@ class Place:
 
     def _give_back(self, left):
         is_whole = self._stands and not self._steps and not self._failed
-        if is_whole and left == self._left and not self.column.visible and len(self._view.select()) > MOST:
+        if is_whole and left == self._left and not self.column.visible and size(self._view) > MOST:
             self.column.objects, self._asked, self._stands = [self._says], False, False
 
     def fill(self):

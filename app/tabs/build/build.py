@@ -14,7 +14,7 @@ from app.tabs.build.fields import symbol
 from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
-from app.widgets.cards import alert, column, flow, note, words
+from app.widgets.cards import Hidden, alert, flow, note, words
 from app.widgets.download import Download
 from app.widgets.forms import Button, Choice, Field, Menu, TextFile
 from app.widgets.numbers import Numbers, number, tidy
@@ -51,9 +51,11 @@ class Pieces:
         self.put = Button(say("build.pieces.put"), lambda: self._compose(1))
         self.take = Button(say("build.pieces.take"), lambda: self._compose(-1))
         self.undo = Button(say("build.pieces.undo"), builder.take_off)
-        inputs = flow(self.kind, *self.entries.values(), self.density)
-        self.view = column(words(note(say("build.pieces.says"))), inputs, flow(self.put, self.take, self.undo),
-                           self.words)  # fmt: skip
+        self.view = Hidden(lambda: [
+            words(note(say("build.pieces.says"))),
+            flow(self.kind, *self.entries.values(), self.density),
+            flow(self.put, self.take, self.undo),
+            self.words])  # fmt: skip
 
     def show(self, shape):
         self.view.visible, self.density.value = not isinstance(shape, BareSphere), ""
@@ -108,8 +110,8 @@ class Build:
         self.inside = Inside(builder.fill)
         self.dimensions = Numbers([], self._pull, margin=(6, 0))
         self.parting = self._button("parts", builder.part_densities)
-        buttons = flow(self._button("add", builder.add_point), self._button("remove", self._remove), self.parting)
-        self.points = column(words(note(say("build.bench.twice"))), buttons)
+        self.points = Hidden(lambda: [words(note(say("build.bench.twice"))), flow(
+            self._button("add", builder.add_point), self._button("remove", self._remove), self.parting)])  # fmt: skip
         self.pieces = Pieces(builder)
         self.stl = Download(runs, lambda: (builder.stl() or b"",), bytes, label=say("build.bench.stl"),
                             filename="top.stl", margin=0)  # fmt: skip
@@ -118,8 +120,7 @@ class Build:
         self.file = TextFile(say("build.bench.load"), builder.load, partial(builder.refuse_file, LARGEST_FILE),
                              accept=".json", most=LARGEST_FILE)  # fmt: skip
         self.back = self._button("back", builder.attach)
-        parted = words(f'<div class="alert">{say("build.bench.parted")}</div>')
-        self.parted = column(parted, self.back, visible=False)
+        self.parted = Hidden(lambda: [words(f'<div class="alert">{say("build.bench.parted")}</div>'), self.back])
         builder.param.watch(lambda event: self._show(event.new), "draft")
         self._show(builder.draft)
 

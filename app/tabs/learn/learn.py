@@ -14,7 +14,7 @@ from app.tabs.learn.published import published_view
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
-from app.widgets.cards import card, column, first, later, staged, words
+from app.widgets.cards import Hidden, card, column, first, later, staged, words
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import Choice, hear
 from app.widgets.top3d import Top3D, show_top
@@ -56,15 +56,17 @@ class Learn(param.Parameterized):
         self._look()
 
     def _build(self):
-        intro = words("".join(f"<p style='margin: 0 0 6px'>{say(f'derivation.page.{key}')}</p>"
-                              for key in ("intro", "smooth", "vectors")))  # fmt: skip
-        lines = later(card(say("derivation.page.title"), intro, self.derivation.place), 1)
-        top = first(card(say("learn.page.top"), self.top))
-        # a hidden Column inside, because a grid with a layout of its own cannot be hidden
-        self.pair = column(staged([top], [lines]))
+        # in a column, because a grid with a layout of its own cannot be hidden
+        self.pair = Hidden(lambda: [self._pair()])
         self.others = column()
         self._made = {}
         return column(self.sections, self.lesson, self.pair, self.others, css_classes=["learn"])
+
+    def _pair(self):
+        intro = words("".join(f"<p style='margin: 0 0 6px'>{say(f'derivation.page.{key}')}</p>"
+                              for key in ("intro", "smooth", "vectors")))  # fmt: skip
+        lines = later(card(say("derivation.page.title"), intro, self.derivation.place), 1)
+        return staged([first(card(say("learn.page.top"), self.top))], [lines])
 
     # ---- the lesson ----
 
