@@ -1,7 +1,7 @@
 """docs/mutants.md: what the tests noticed of the changes that mutants.py tried, as far as it is of today's code.
 
 data/mutants.jsonl has a line for each change, with a hash of the function that was changed, which does not depend on
-the file in which it is. The page counts what is of functions that are as they were, and sets the rest apart.
+the file in which it is. The page counts what is of functions that are as they were.
 """
 
 import ast
@@ -103,16 +103,6 @@ def page(lines, chosen):
             reason = EXPLAINED.get((line["file"], line["after"]), open_)
             yield (f"- `{function}` of `{file}`: {reason}\n\n  ```text\n  {line['before']}\n  {line['after']}\n"
                    "  ```")  # fmt: skip
-    yield ""
-    yield "## Of code that is no more"
-    yield ""
-    yield f"What the tests noticed {dates(old)} says nothing of today’s code."
-    yield ""
-    yield "<details><summary>What it was</summary>"
-    yield ""
-    yield from table([(line, line["file"]) for line in old])
-    yield ""
-    yield "</details>"
 
 
 def dates(lines):

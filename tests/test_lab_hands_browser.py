@@ -213,7 +213,7 @@ def test_a_picture_that_is_enlarged_is_painted_as_before_and_has_numbers_at_the_
     page.locator("summary", has_text="Numbers").click()
     page.get_by_role("slider", name="Time").press("Home")
     page.get_by_role("row", name="tilt 5.7°").wait_for()
-    for tab in ("Path", "Spin", "Energy"):
+    for tab in ("Track", "Spin", "Energy"):
         page.locator(".answer").get_by_role("tab", name=tab).click()
         small, height = plot.evaluate(PAINT), plot.bounding_box()["height"]
         larger.click()

@@ -32,7 +32,7 @@ CODES = {
     "start-not-resolved": "a start whose nutation takes almost for ever",
     # friction and contacts
     "in-flight": "a top that does not touch the table",
-    "below-sliding": "friction at rest smaller than that of sliding",
+    "below-sliding": "static friction smaller than sliding friction",
     "too-strong": "friction that no normal force balances (Painleve's paradox)",
     "not-followed": "friction under which the equations could not be integrated",
     "beyond-rim": "a tilt at which the sphere has ended",

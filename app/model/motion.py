@@ -48,7 +48,7 @@ def clear(motion: Callable[[], Trajectory], settings: Setup, state: State) -> Tr
     angle = settings.touch_angle
     if state.theta >= angle:
         raise TopError("tilt", float(np.degrees(state.theta)),
-                       "less than {most:.4g} degrees on this plane",
+                       "less than {most:.4g} degrees on this table",
                        "Its stem or rim would be below the table.", code="stem-below-table",
                        most=np.degrees(angle))  # fmt: skip
     trajectory = motion()

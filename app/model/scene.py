@@ -210,7 +210,7 @@ def solve(
 def _check_sizes(top: Top, numbers: dict[str, float]) -> None:
     for name, value in numbers.items():
         if not abs(value) <= LARGEST:
-            raise TopError(name, value, "at most {most:g} either way", "No top is ever so fast, no table so rough.",
+            raise TopError(name, value, "at most {most:g} in size", "No top is ever so fast, no table so rough.",
                            code="too-large", most=LARGEST)  # fmt: skip
     for name, least, unit in (("a", -LARGEST, "R"), ("I1", LEAST_INERTIA, "MR^2"), ("I3", LEAST_INERTIA, "MR^2")):
         if not least <= (value := getattr(top, name)) <= LARGEST:

@@ -179,7 +179,7 @@ class Setup:
         if end * fastest > FARTHEST_TURN * MOST_FRAMES:
             most = FARTHEST_TURN * MOST_FRAMES / fastest * self.scales.time
             raise TopError("seconds", self.seconds, "at most {most:.3g} s with this spin",
-                           "More turns than that are too many to show.", code="too-many-turns", most=most)  # fmt: skip
+                           "More turns cannot be shown.", code="too-many-turns", most=most)  # fmt: skip
         frames = np.clip(np.ceil(end * fastest / MOST_TURN), LEAST_FRAMES, MOST_FRAMES)
         return np.linspace(0, end, int(frames) + 1)
 

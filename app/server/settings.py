@@ -113,7 +113,7 @@ class Settings:
                           votes)  # fmt: skip
     maps: str = _setting("", "folder where computed maps are kept, up to 100 MB; without it, in memory alone", writable)
     votes_per_address: int = _setting(
-        250, "votes in one room from one address; a whole class may share one", whole(1, 100_000)
+        250, "votes in one class from one address; a whole class may share one", whole(1, 100_000)
     )
     responsible: str = _setting("", "who answers for the page, and how to reach them: for its accessibility statement")
     secret: str = _setting("", "signs sessions; without it, a new one at each start")

@@ -1,7 +1,7 @@
-"""Which end is up at which spin
+"""Upright or inverted, by the spin
 
-The least energy with a given $C_J$, over the angle (note 58 of the paper). For a slow spin it is least upright, for a
-fast one inverted. Between 6.6 and 6.9 turns a second both ends are minima: both are stable. The explorer shows the
+The least energy with a given $C_J$, over the tilt (note 58 of the paper). For a slow spin it is least upright, for a
+fast one inverted. Between 6.6 and 6.9 turns a second both are minima, and so both are stable. The explorer shows the
 curve for the start of a motion, here for 6.7 turns a second.
 """
 

@@ -1,4 +1,4 @@
-"""How far it can tip before it jumps (Fig. 5 of the paper)
+"""How far it can lean before it lifts off (Fig. 5 of the paper)
 
 Each line is one motion: the one with the most energy that a rolling top of that $K_J$ can have, from its inner turning
 point to its outer one. With more, the table would have to pull it down somewhere.

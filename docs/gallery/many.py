@@ -1,4 +1,4 @@
-"""Where four hundred throws end
+"""Where four hundred starts end
 
 Each dot is a run of the paper’s top with its stem; all begin with a tilt of 6° and last 24 s. From about 8 turns a
 second on it tips over until its stem touches, at 119°. With little friction this takes longer. The explorer computes

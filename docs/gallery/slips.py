@@ -1,4 +1,4 @@
-"""How far it can tip before it slips (Fig. 6)
+"""How far it can lean before it slips (Fig. 6)
 
 As above, on a table that holds it sideways with half of its weight at most, $\\mu_s=0.5$. The dashed line is where the
 motions with the most energy are on the verge of slipping.

@@ -1,6 +1,6 @@
-"""The same throw on three tables
+"""The same start on three tables
 
-Rough, smooth, and with friction. Only where it slides does the top turn over.
+Rough, smooth, and with friction. Only where it slips does the top turn over.
 """
 
 import matplotlib.pyplot as plt

@@ -1,7 +1,7 @@
 """Why it turns over
 
-With friction, $C_J$ stays and the energy falls; so a fast top ends where it has the least energy for its $C_J$: on its
-other end. The friction is Coulomb’s, $\\mu=0.3$, smoothed where it hardly slides.
+With friction, $C_J$ stays and the energy falls; so a fast top ends where it has the least energy for its $C_J$:
+inverted. The friction is Coulomb’s, $\\mu=0.3$, smoothed where it hardly slips.
 """
 
 import matplotlib.pyplot as plt

@@ -1,6 +1,6 @@
-"""Between which angles it nutates
+"""Between which tilts it nutates
 
-The square of $\\dot\\theta$, (36), over the angle, for three energies. A motion is possible where it is not negative.
+The square of $\\dot\\theta$, (36), over the tilt, for three energies. A motion is possible where it is not negative.
 The dots are the turning points.
 """
 

@@ -85,7 +85,7 @@ class Coulomb(_Friction):
             object.__setattr__(self, "mu_s", self.mu_k)
         self._positive("mu_s")
         if self.mu_s < self.mu_k:
-            raise TopError("mu_s", self.mu_s, f"mu_s >= mu_k = {self.mu_k:g}", "Friction at rest is the larger one.",
+            raise TopError("mu_s", self.mu_s, f"mu_s >= mu_k = {self.mu_k:g}", "Static friction is the larger one.",
                            code="below-sliding")  # fmt: skip
 
     @property

@@ -20,7 +20,7 @@ from ..paper.poles import Floats, bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
-from .nutation import NODES_MOST, Nodes, Nutation
+from .nutation import Nodes, Nutation
 from .phase import Ends, Pose, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
 from .track import Path, Track, path
 from .trajectory import Trajectory, checked_times
@@ -144,13 +144,12 @@ class Rolling(Nutation):
 
     def _too_near(self) -> TopError:
         if self._given:
-            return TopError("theta", self._given.theta, "a start whose nutation {nodes} nodes resolve",
-                            "It is too near to an unstable steady precession, or f1 or f3 nearly vanishes in the "
-                            "well; change the start a little.", code="start-not-resolved",
-                            nodes=NODES_MOST)  # fmt: skip
-        return TopError("E", self.E, "an energy whose nutation {nodes} nodes resolve",
-                        "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
-                        "well; change E a little.", code="energy-not-resolved", nodes=NODES_MOST)  # fmt: skip
+            return TopError("theta", self._given.theta, "a start further from an unstable steady precession",
+                            "So near to it, or where f1 or f3 nearly vanishes in the well, the nutation takes almost "
+                            "for ever; change the start a little.", code="start-not-resolved")  # fmt: skip
+        return TopError("E", self.E, "an energy further from that of an unstable steady precession",
+                        "So near to it, or where f1 or f3 nearly vanishes in the well, the nutation takes almost for "
+                        "ever; change E a little.", code="energy-not-resolved")  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
         return rolling_sigma_rates(v, m, dt_dkappa, self._curve, self.ends)

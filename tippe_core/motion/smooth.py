@@ -37,7 +37,7 @@ from .trajectory import Trajectory, checked_times
 
 
 def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
-    """The motion on a smooth plane at the given times. Exact to rounding error for any length of time.
+    """The motion on a smooth table at the given times. Exact to rounding error for any length of time.
 
     If the top leaves the table the Trajectory ends, with the event (time, "lifts off"), because the flight is not
     computed.
@@ -71,7 +71,7 @@ def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
 
 
 class Gliding(Nutation):
-    """The motion on the smooth plane as an object; arguments as in glide(), without the times.
+    """The motion on a smooth table as an object; arguments as in glide(), without the times.
 
     theta(t) as in Rolling. Calling the object with times gives the Trajectory beyond lift_off too, as if the table
     could pull.

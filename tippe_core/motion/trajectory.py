@@ -141,7 +141,7 @@ class Trajectory:
         arrays: dict[str, Any] = {field.name: value[rows] for field in fields(self)
                                   if isinstance(value := getattr(self, field.name), np.ndarray)}  # fmt: skip
         if not len(arrays["t"]):
-            raise TopError("rows", rows, "rows with an instant of it", code="no-rows")
+            raise TopError("rows", rows, "rows with at least one instant", code="no-rows")
         last = np.inf if arrays["t"][-1] == self.t[-1] else arrays["t"][-1]
         events, supports, notes = (tuple(x for x in each if x[0] <= last)
                                    for each in (self.events, self.supports, self.notes))  # fmt: skip

@@ -14,7 +14,7 @@ from app.tabs.build.fields import symbol
 from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
-from app.widgets.cards import Hidden, alert, flow, note, words
+from app.widgets.cards import Hidden, alert, column, flow, note, words
 from app.widgets.download import Download
 from app.widgets.forms import Button, Choice, Field, Menu, TextFile
 from app.widgets.numbers import Numbers, number, tidy
