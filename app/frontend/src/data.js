@@ -1,3 +1,5 @@
+import { atEnd } from "./life.js";
+
 // Arrays are sent as bytes and arrive as an ArrayBuffer, so nothing passes through JSON.
 /** @param {Bytes} [bytes] */
 export function float32(bytes) {
@@ -56,8 +58,8 @@ export function set(model, name, value) {
 export const ask = (model, wish) => set(model, "asked", wish);
 
 // Runs once before the next paint, however often it was called before then.
-/** @param {() => void} run @returns {Later} */
-export function coalesce(run) {
+/** @param {() => void} run @param {AbortSignal} [life] @returns {Later} */
+export function coalesce(run, life) {
   let asked = 0;
   const later = () => {
     asked ||= requestAnimationFrame(() => {
@@ -69,19 +71,19 @@ export function coalesce(run) {
     cancelAnimationFrame(asked);
     asked = 0;
   };
+  atEnd(life, later.cancel);
   return later;
 }
 
 // Runs once nothing has called it for so long.
-/** @param {() => void} run @param {number} ms @returns {Later} */
-export function debounce(run, ms) {
+/** @param {() => void} run @param {number} ms @param {AbortSignal} [life] */
+export function debounce(run, ms, life) {
   let asked = 0;
-  const later = () => {
+  atEnd(life, () => clearTimeout(asked));
+  return () => {
     clearTimeout(asked);
-    asked = window.setTimeout(run, ms);
+    asked = setTimeout(run, ms);
   };
-  later.cancel = () => clearTimeout(asked);
-  return later;
 }
 
 // The 2-D context of a canvas. It is null only if the canvas is used by WebGL.

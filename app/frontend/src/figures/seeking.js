@@ -3,9 +3,7 @@
 export const LAB = "lab"; // the clock of the page's start
 
 /** @param {number} t @param {boolean} held */
-export function seek(t, held, clock = LAB) {
-  window.dispatchEvent(new CustomEvent(`tippe:seek:${clock}`, { detail: { t, held } }));
-}
+export const seek = (t, held, clock = LAB) => window.dispatchEvent(new CustomEvent(`tippe:seek:${clock}`, { detail: { t, held } }));
 
 /** @param {Pick<Happened, "event_name">} event */
 export const isDown = ({ event_name: name }) => name === "panstart" || name === "pan";
@@ -31,7 +29,6 @@ export function isFollowed(followers) {
   return false;
 }
 
-/** @param {(t: number) => void} move */
-export function followClock(move, clock = LAB) {
-  window.addEventListener(`tippe:clock:${clock}`, ({ detail: { t } }) => move(t));
-}
+// Calls move with each moment that the top which leads the clock shows.
+/** @param {(moment: { t: number, index: number, playing: boolean, verdict: string }) => void} move @param {string} clock @param {AbortSignal} [life] */
+export const followClock = (move, clock, life) => window.addEventListener(`tippe:clock:${clock}`, ({ detail }) => move(detail), { signal: life });

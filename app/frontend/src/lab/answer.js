@@ -32,10 +32,9 @@ export class Answer {
     this.title = part("h2");
     this.note = part("p", { class: "small" });
     this.choice = new Choice({
-      role: "tab", label: texts.pictures, options: NAMES.map((name) => [name, texts.answers[name].tab, ""]),
+      role: "tab", label: texts.pictures, kind: "mini", options: NAMES.map((name) => [name, texts.answers[name].tab]),
       choose: (name) => this.look(name),
     });
-    this.choice.element.className = "mini";
     this.drawing = drawn("svg", { role: "img" });
     this.readout = part("p", { class: "readout", hidden: true, "aria-hidden": "true" });
     this.plot = part("div", { class: "plot", role: "tabpanel" }, this.drawing, this.readout);
@@ -46,8 +45,7 @@ export class Answer {
       part("div", { class: "titled" }, this.title, this.choice.element, this.larger), this.note, this.plot);
     this.plot.onpointermove = (event) => this.point(event);
     this.plot.onpointerleave = () => (this.readout.hidden = true);
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
+    new ResizeObserver(() => this.draw()).observe(this.plot);
   }
 
   // Fills the window; the same button or Escape ends that. All of it moves, so that it looks the same there.
@@ -285,10 +283,6 @@ export class Answer {
     if (!this.width || !this.scene) return;
     for (const set of ["x1", "x2"]) this.now.setAttribute(set, String(this.x(t)));
     for (const move of this.moves) move(t);
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }
 

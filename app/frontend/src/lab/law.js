@@ -4,12 +4,8 @@ import { Choice, part } from "./parts.js";
 export class Law {
   /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask */
   constructor(texts, ask) {
-    const { more } = texts, options = (words) => Object.entries(words).map(([name, word]) => [name, word, ""]);
-    const choice = (name, label, words) => {
-      const made = new Choice({ role: "radio", label, options: /** @type {any} */ (options(words)), choose: (chosen) => ask(name, chosen) });
-      made.element.className = "seg";
-      return made;
-    };
+    const { more } = texts;
+    const choice = (name, label, words) => new Choice({ role: "radio", label, kind: "seg", options: Object.entries(words), choose: (chosen) => ask(name, chosen) });
     this.law = choice("law", texts.law, more.law);
     this.landing = choice("landing", more.lands, more.landing);
     this.stem = part("input", { type: "checkbox", onchange: () => ask("stem", this.stem.checked) });
@@ -17,7 +13,7 @@ export class Law {
     this.examples = part("select", { "aria-label": more.example, onchange: () => {
       if (this.examples.value) ask("example", this.examples.value);
       this.examples.value = "";
-    } }, part("option", { value: "" }, more.example), ...options(more.presets).map(([name, word]) => part("option", { value: name }, word)));
+    } }, part("option", { value: "" }, more.example), ...Object.entries(more.presets).map(([name, word]) => part("option", { value: name }, word)));
     this.element = part("div", { class: "law" }, this.examples, this.law.element,
       part("p", { class: "small" }, more.lands), this.landing.element, this.touches);
   }

@@ -43,8 +43,7 @@ export class TimeLine {
     this.line = part("span", { class: "now" });
     this.plot = part("div", { class: "plot" }, this.drawing, this.range, this.line, this.head);
     this.listen();
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
+    new ResizeObserver(() => this.draw()).observe(this.plot);
   }
 
   // The pointer takes over the time as soon as it is pressed, even if it does not move at first.
@@ -88,9 +87,5 @@ export class TimeLine {
     }
     this.range.value = String(t);
     return x;
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }

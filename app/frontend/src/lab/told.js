@@ -1,6 +1,7 @@
 // The stage in words, for those who do not see it: how far each top leans, what carries it, and how it turns.
 import { latest, SPIN, TABLES, TILT, TURNING } from "./curves.js";
 import { part, say } from "./parts.js";
+import { debounce } from "../data.js";
 
 const SAY_MS = 400; // said once nothing new has happened for this long
 const STILL = 0.05; // turns a second that are not worth a word
@@ -17,14 +18,15 @@ export function inWords(texts, { curves, run }, t) {
 }
 
 export class Told {
-  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
-  constructor(texts, time) {
+  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {AbortSignal} life */
+  constructor(texts, time, life) {
     this.texts = texts;
     this.time = time;
     /** @type {any[]} */
     this.tops = []; // those that are shown
     this.heard = ""; // when it was said, or what was happening
     this.element = part("p", { class: "unseen", role: "status", "aria-label": texts.told.label });
+    this.say = debounce(() => (this.element.textContent = this.tops.map((top) => top.name + inWords(texts, top, time.t)).join(" ")), SAY_MS, life);
   }
 
   show(scene) {
@@ -40,13 +42,6 @@ export class Told {
     const heard = time.playing ? JSON.stringify(now) : String(t);
     if (heard === this.heard || time.held) return;
     this.heard = heard;
-    clearTimeout(this.later);
-    this.later = setTimeout(() => {
-      this.element.textContent = this.tops.map((top) => top.name + inWords(this.texts, top, time.t)).join(" ");
-    }, SAY_MS);
-  }
-
-  leave() {
-    clearTimeout(this.later);
+    this.say();
   }
 }

@@ -1,6 +1,7 @@
 // A top in 3-D for the Lab: it has no bar of its own, and its model is created here.
 import { renderTop3D } from "../three/top3d.js";
 import { part } from "./parts.js";
+import { atEnd } from "../life.js";
 
 // The Lab has its own words for these.
 const OURS = ".tippe .verdict { display: none } :host(:not([data-arrows])) .tippe .scales { display: none }" +
@@ -13,13 +14,13 @@ export const NOTHING = { ...Object.fromEntries(SHOWS.map((name) => [name, false]
 
 export class Top {
   /**
-   * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time
+   * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time @param {AbortSignal} of.life
    * @param {number} of.away distance of the camera, in units of the distance at which the whole top just fits
    * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what dragging the axis does
    * @param {Hand} [of.flick] what a flick on the top does
    * @param {number[]} [of.camera] the view that a person chose before @param {(camera: number[]) => void} [of.turned] hears of another
    */
-  constructor({ texts, label, time, away, hand, flick, camera: before = [], turned }) {
+  constructor({ texts, label, time, life, away, hand, flick, camera: before = [], turned }) {
     const listeners = new Map(), put = (changes) => this.put(changes), first = [-1.12, 0.26, away];
     let camera = before.length ? before : first;
     this.listeners = listeners;
@@ -43,6 +44,7 @@ export class Top {
     };
     this.model = /** @type {any} */ (values);
     this.view = /** @type {any} */ ({});
+    atEnd(life, () => this.view.tippe?.dispose());
   }
 
   // Draws it unless it is already drawn.
@@ -64,9 +66,5 @@ export class Top {
   firstView() {
     this.model.camera = [];
     this.view.tippe?.look();
-  }
-
-  leave() {
-    for (const run of this.listeners.get("remove") ?? []) run();
   }
 }

@@ -39,8 +39,7 @@ export class Graph {
     this.plot = part("div", { class: "plot" }, this.drawing);
     this.below = part("p", { class: "axis-name" });
     this.element = part("section", { class: "picture" }, this.title, this.plot, this.below);
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
+    new ResizeObserver(() => this.draw()).observe(this.plot);
   }
 
   show(scene) {
@@ -161,9 +160,5 @@ export class Graph {
       for (const name of ["x1", "x2"]) this.now.setAttribute(name, String(x(Math.min(t, end))));
     }
     this.place(time ? seen : Infinity);
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }

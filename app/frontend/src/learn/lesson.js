@@ -1,6 +1,6 @@
 // The lesson, step by step: a question about a top after a short look at it, and the answer after the rest of the run.
 // Python sends the words and the runs; once they are there, the page needs no server.
-import { followLook } from "../controls/look.js";
+import { follow, followLook, lifeOf } from "../life.js";
 import { Curves } from "../lab/curves.js";
 import { part } from "../lab/parts.js";
 import { Time } from "../lab/time.js";
@@ -19,8 +19,8 @@ const NEARLY = 0.03, LONG = 3; // s: this close to the end counts as the end; a 
 
 class Lesson {
   /** @param {Rendering<LessonModel>} rendering */
-  constructor({ model, el }) {
-    const { texts } = model;
+  constructor(rendering) {
+    const { model, el } = rendering, { texts } = model, life = lifeOf(rendering);
     this.model = model;
     this.texts = texts;
     this.count = 0;
@@ -28,10 +28,10 @@ class Lesson {
     this.kept = {}; // by step, as long as the page is open
     /** @type {Map<Bytes, Curves>} */
     this.read = new Map();
-    this.time = new Time(coalesce(() => this.at()), "lesson");
+    this.time = new Time(coalesce(() => this.at(), life), life, "lesson");
     this.crumbs = part("ol", { class: "crumbs", "aria-label": texts.lesson.steps });
     this.heading = part("h2", { class: "question" });
-    this.stage = new Stage(texts, this.time);
+    this.stage = new Stage(texts, this.time, life);
     this.bar = new Bar(texts, this.time);
     this.question = new Question(texts, {
       guess: (value) => this.guess(value), watch: () => this.watch(), skip: () => this.skip(), next: () => this.go(1), lab: () => this.ask("lab", ""),
@@ -46,12 +46,13 @@ class Lesson {
       this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.phone.follows, this.more);
     this.frame = part("div", { class: "frame", tabindex: -1 }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
-    this.unfollow = followLook(this.frame, () => this.draw());
-    this.show = coalesce(() => this.showNow());
+    followLook(this.frame, life, () => this.draw());
+    this.show = coalesce(() => this.showNow(), life);
+    this.listen(life);
   }
 
-  listen() {
-    const listening = (this.listening = new AbortController()), { signal } = listening;
+  /** @param {AbortSignal} signal its life */
+  listen(signal) {
     window.addEventListener("tippe:lost", this.onLost, { signal });
     window.addEventListener("tippe:back", this.onLost, { signal });
     // captured before a focused tab of the head can use an arrow key for itself
@@ -325,22 +326,9 @@ class Lesson {
     this.bar.at(time.t);
     this.graph.at(time.t);
   }
-
-  leave() {
-    this.show.cancel();
-    this.unfollow();
-    for (const gone of [this.time, this.stage, this.bar, this.graph]) gone.leave();
-    this.listening?.abort();
-  }
 }
 
 /** @param {Rendering<LessonModel>} rendering */
-export function renderLesson({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
-  const lesson = new Lesson({ model, el, view });
-  for (const name of ["steps", "runs", "others", "state"]) model.on(name, lesson.show);
-  lesson.listen();
-  lesson.show();
-  view.tippe = { dispose: () => lesson.leave() };
-  model.on("remove", () => lesson.leave());
+export function renderLesson(rendering) {
+  follow(rendering.model, ["steps", "runs", "others", "state"], new Lesson(rendering).show);
 }

@@ -33,7 +33,6 @@ export function renderSteps(rendering) {
   const swatch = (colour, dash) => drawn("svg", { class: "swatch", viewBox: "0 0 26 8", "aria-hidden": "true" },
     drawn("path", { class: "line", d: "M1 4H25", stroke: colour, "stroke-dasharray": { dashed: "7 4", dotted: "2 4" }[dash] }));
   model.on("curves", showing);
-  model.on("remove", () => graph.leave());
-  frame(rendering, style, graph.element, label, list).classList.add("steps");
+  frame(rendering, style, part("div", { class: "steps" }, graph.element, label, list));
   show();
 }

@@ -3,6 +3,7 @@ import { set } from "../data.js";
 import { clamp, nearestRow, timeAtTilt } from "../figures/curves.js";
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { seek } from "../figures/seeking.js";
+import { atEnd } from "../life.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { awayFromTieline, gripAt, REACH } from "./grips.js";
 import { readPlane, valuesIn } from "./reading.js";
@@ -13,16 +14,15 @@ const STILL = 2; // px: a press that moves less is a click
 const TILT = 0.01, FAST = 10, HELD = 500; // rad a key; times as far; ms that a key counts on the one before
 
 export class Hand {
-  /** @param {PlaneFigure} figure */
-  constructor(figure) {
+  /** @param {PlaneFigure} figure @param {AbortSignal} signal its life */
+  constructor(figure, signal) {
     this.figure = figure;
     /** @type {{ grip: string, from: [number, number], scrolls: boolean, moved: boolean } | null} */
     this.press = null;
     /** @type {[x: number, y: number] | null} */
     this.at = null; // px of the drawing
     this.keyed = { name: "", value: 0, when: -Infinity };
-    const { drawing } = figure, listening = (this.listening = new AbortController()), { signal } = listening;
-    const on = (name, run, more = {}) => drawing.addEventListener(name, run, { signal, ...more });
+    const on = (name, run, more = {}) => figure.drawing.addEventListener(name, run, more);
     on("pointerdown", (event) => this.take(event));
     on("pointermove", (event) => this.move(event));
     on("pointerup", (event) => this.release(event));
@@ -32,6 +32,7 @@ export class Hand {
     // A finger on the selected tieline drags it; anywhere else it scrolls the page.
     on("touchstart", (event) => event.touches.length === 1 && this.isOnTieline(this.pointOf(event.touches[0])) && event.preventDefault(), { passive: false });
     window.addEventListener("scroll", () => hideReadout(this), { capture: true, passive: true, signal });
+    atEnd(signal, () => hideReadout(this));
   }
 
   // What is held.
@@ -178,10 +179,5 @@ export class Hand {
     if (name === "bead") seek(Math.max(next, 0), false, figure.model.clock);
     else if (name === "line") this.ask("line", shown.inner, Number(next.toFixed(9)));
     else this.ask("end", next, shown.K_J);
-  }
-
-  leave() {
-    this.listening.abort();
-    hideReadout(this);
   }
 }

@@ -1,8 +1,9 @@
 // The colours of the 3-D pictures: those of objects, on a light page and on a dark one. Text takes its colours from
 // tokens.js.
 import { colours, onDark } from "../colours.js";
+import { isDark, onLook } from "../life.js";
 
-export const scenes = {
+const scenes = {
   light: {
     sky: 0xf1efea, edge: 0x5a3312, table: 0xf6f1e9, grid: 0xd6d5d1, strong: 0xa9b0b8, ink: 0x1d2733, shade: 0x2a2118,
     ground: 0xf7f8fa, lines: 0x6b7a88, walls: 0.68, edges: 0.3,
@@ -14,16 +15,10 @@ export const scenes = {
     force: onDark.normal, omega: onDark.omega, momentum: onDark.momentum,
   },
 };
-const now = () => scenes[document.documentElement.dataset.look?.startsWith("dark") ? "dark" : "light"];
 
-// dress(scene) runs now and whenever the look changes, until the returned function is called.
-/** @param {(look: typeof scenes.light) => void} dress */
-export function followLook(dress) {
-  const again = () => dress(now());
-  window.addEventListener("tippe:look", again);
-  again();
-  return () => window.removeEventListener("tippe:look", again);
-}
+// Calls dress now and whenever the look changes.
+/** @param {(look: typeof scenes.light) => void} dress @param {AbortSignal} life */
+export const followScene = (dress, life) => onLook(() => dress(scenes[isDark() ? "dark" : "light"]), life);
 
 // What a scene keeps on the graphics card.
 /** @param {import("three").Scene} scene */

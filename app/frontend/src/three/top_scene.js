@@ -8,7 +8,7 @@ import { niceAbove } from "../data.js";
 import { centreOf, emptyPose } from "../motion/frames.js";
 import { Labels } from "./labels.js";
 import { Ribbon, Thread } from "./ribbon.js";
-import { followLook } from "./scene.js";
+import { followScene } from "./scene.js";
 import { TraceLine } from "./trace.js";
 import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
 /** @import { Stage } from "./stage.js" */
@@ -53,8 +53,8 @@ function makeCentre() {
 }
 
 export class TopScene {
-  /** @param {Stage} stage */
-  constructor(stage) {
+  /** @param {Stage} stage @param {AbortSignal} life */
+  constructor(stage, life) {
     const { scene, renderer } = stage;
     this.stage = stage;
     this.moment = emptyPose(); // the pose at the player's time
@@ -99,7 +99,7 @@ export class TopScene {
     const vector = (letter) => this.labels.add(letter, "vector");
     this.tips = { force: vector("F"), omega: vector("ω"), momentum: vector("L"), centre: vector("G") };
     this.pointedTip = vector("");
-    this.unfollow = followLook((look) => this.dress(look));
+    followScene((look) => this.dress(look), life);
   }
 
   dress(look) {

@@ -1,5 +1,6 @@
 // The page's address, history and keys. The address contains what a person has set; a room, a level or a step of the
 // lesson that was opened is an entry of the browser's history.
+import { lifeOf } from "../life.js";
 import { onLettingGo } from "./press.js";
 
 const MUTE = ["Control", "Shift", "Alt", "Meta", "Tab"]; // keys that change nothing by themselves
@@ -28,7 +29,7 @@ export function inLook(search, present) {
 
 /** @param {Rendering<AddressModel>} rendering */
 export function renderAddress({ model }) {
-  const listening = new AbortController(), options = { capture: true, signal: listening.signal };
+  const signal = lifeOf({ model }), options = { capture: true, signal };
   const down = () => {
     model.gesture += 1;
     model.held = true;
@@ -38,7 +39,7 @@ export function renderAddress({ model }) {
   };
   window.addEventListener("pointerdown", down, options);
   window.addEventListener("keyup", up, options);
-  onLettingGo(up, listening.signal);
+  onLettingGo(up, signal);
   const onKey = (/** @type {KeyboardEvent} */ event) => {
     const writing = isWriting(event.composedPath()[0]), step = writing ? null : stepOf(event);
     if (step) {
@@ -68,5 +69,4 @@ export function renderAddress({ model }) {
   }, options);
   model.on("reloads", () => location.reload());
   model.page = location.origin + location.pathname;
-  model.on("remove", () => listening.abort());
 }

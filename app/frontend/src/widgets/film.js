@@ -2,6 +2,7 @@
 // and while it is made, how far that is, and a button that stops it.
 import { renderStretch } from "../controls/stretch.js";
 import { frame, whenSeen } from "../controls/frame.js";
+import { atEnd } from "../life.js";
 import { progress } from "../controls/style.js";
 import { part, say } from "../lab/parts.js";
 import { HIGH, labInSight, timesOf, WIDE } from "../motion/filmed.js";
@@ -50,7 +51,7 @@ class Films {
     this.said = part("p", { class: "small", role: "status" });
     this.stretch = part("div");
     this.inner = /** @type {Rendering<FilmModel>["view"]} */ ({});
-    frame(rendering, STYLE, part("div", { class: "all" }, part("span", { class: "says" }, part("b", {}, texts.title), part("span", { class: "small" }, texts.says)),
+    this.life = frame(rendering, STYLE, part("div", { class: "all" }, part("span", { class: "says" }, part("b", {}, texts.title), part("span", { class: "small" }, texts.says)),
       this.files, this.wait, this.stretch, this.said));
     this.offer();
   }
@@ -143,7 +144,8 @@ class Films {
 /** @param {Rendering<FilmModel>} rendering */
 export function renderFilm(rendering) {
   const films = new Films(rendering), look = () => !films.making && films.look();
-  whenSeen(rendering, films.said.parentElement, look, () => {
+  whenSeen(films.said.parentElement, look, films.life);
+  atEnd(films.life, () => {
     films.stopped = true;
     films.inner.tippe?.dispose();
   });

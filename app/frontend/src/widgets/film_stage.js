@@ -3,7 +3,8 @@
 import { Top } from "../lab/top.js";
 import { icon, part, say } from "../lab/parts.js";
 import { coalesce, float32 } from "../data.js";
-import { seek } from "../figures/seeking.js";
+import { followClock, seek } from "../figures/seeking.js";
+import { follow, lifeOf } from "../life.js";
 
 const PACE = 1 / 8; // in units of the real top's speed
 const STYLE = `<style>
@@ -18,11 +19,10 @@ const STYLE = `<style>
   [hidden] { display: none !important }</style>`;
 
 /** @param {Rendering<FilmStageModel>} rendering */
-export function renderFilmStage({ model, el, view }) {
-  view.tippe?.dispose();
-  const { texts, clock } = model;
+export function renderFilmStage(rendering) {
+  const { model, el } = rendering, { texts, clock } = model, life = lifeOf(rendering);
   el.innerHTML = STYLE;
-  const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
+  const top = new Top({ texts, life, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
   Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
   const pill = part("div", { class: "pill", hidden: true });
   const none = part("p", { class: "none" }, model.none);
@@ -36,11 +36,11 @@ export function renderFilmStage({ model, el, view }) {
     play.setAttribute("aria-label", texts[name]);
   }
   let tilts = new Float32Array(), shown = model.frames, shows = false;
-  const hear = ({ detail: { t, index, playing } }) => {
+  followClock(({ t, index, playing }) => {
     if (playing !== top.model.playing) put({ playing });
     const tilt = tilts[Math.min(index, tilts.length - 1)];
     pill.textContent = tilt === undefined ? "" : say(texts, texts.pill, { t: [t, 2], tilt: [tilt, 0] });
-  };
+  }, clock, life);
   const show = coalesce(() => {
     const some = Boolean(float32(model.frames).length);
     tilts = float32(model.tilts);
@@ -52,14 +52,6 @@ export function renderFilmStage({ model, el, view }) {
     if (some) top.begin();
     if (some && shows && model.anew && shown !== model.frames) seek(model.start, false, clock);
     [shown, shows] = [model.frames, some];
-  });
-  for (const name of ["frames", "profile", "tilts", "measured", "a"]) model.on(name, show);
-  window.addEventListener(`tippe:clock:${clock}`, hear);
-  show();
-  view.tippe = { dispose() {
-    show.cancel();
-    window.removeEventListener(`tippe:clock:${clock}`, hear);
-    top.leave();
-  } };
-  model.on("remove", () => view.tippe?.dispose());
+  }, life);
+  follow(model, ["frames", "profile", "tilts", "measured", "a"], show);
 }

@@ -2,6 +2,7 @@
 // Bokeh figure is drawn on a canvas, so its colours and sizes are replaced here.
 import { colours, onDark } from "../colours.js";
 import { coalesce } from "../data.js";
+import { atEnd, lifeOf } from "../life.js";
 import { tokensOf, wear } from "../tokens.js";
 
 const LARGER = 1.35;
@@ -85,15 +86,11 @@ class Look {
 /** @param {Pick<Rendering<LookModel>, "model">} rendering */
 export function renderLook({ model }) {
   document.documentElement.lang = model.texts.language;
-  const look = new Look(model), again = coalesce(() => look.dressAll());
+  const life = lifeOf({ model }), look = new Look(model), again = coalesce(() => look.dressAll(), life);
   const onChange = () => look.isUndone && again();
   look.doc?.on_change(onChange);
   for (const name of ["dark", "large"]) model.on(name, look.update);
-  look.system.addEventListener("change", look.update);
-  model.on("remove", () => {
-    again.cancel();
-    look.system.removeEventListener("change", look.update);
-    look.doc?.remove_on_change(onChange);
-  });
+  look.system.addEventListener("change", look.update, { signal: life });
+  atEnd(life, () => look.doc?.remove_on_change(onChange));
   if (look.isDark || model.large || look.system.matches) look.update();
 }

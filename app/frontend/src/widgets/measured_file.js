@@ -2,6 +2,7 @@
 // too long; a saved film is a short text and is kept whole. A zip, a workbook or a file of Tracker's own is sent whole.
 import { colours } from "../colours.js";
 import { fill } from "../data.js";
+import { lifeOf } from "../life.js";
 
 const FRAME = `<style>
   .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink) }
@@ -127,9 +128,8 @@ export async function* piecesOf(file, most) {
 }
 
 /** @param {Rendering<MeasuredFileModel>} rendering */
-export function renderMeasuredFile({ model, el, view }) {
-  view.tippe?.dispose();
-  const { texts } = model, leaving = new AbortController(), { signal } = leaving;
+export function renderMeasuredFile(rendering) {
+  const { model, el } = rendering, { texts } = model, signal = lifeOf(rendering);
   el.innerHTML = FRAME;
   /** @returns {any} */
   const find = (selector) => el.querySelector(selector);
@@ -182,6 +182,4 @@ export function renderMeasuredFile({ model, el, view }) {
   window.addEventListener("dragover", (event) => shows(event, true), { signal });
   window.addEventListener("dragleave", (event) => event.relatedTarget === null && shows(event, false), { signal });
   window.addEventListener("drop", (event) => shows(event, false) && read(event.dataTransfer?.files[0]), { signal });
-  view.tippe = { dispose: () => leaving.abort() };
-  model.on("remove", () => leaving.abort());
 }

@@ -1,5 +1,6 @@
 // What happened in a run, and when. Clicking an event goes there; the last one that has happened is marked.
-import { seek } from "../figures/seeking.js";
+import { followClock, seek } from "../figures/seeking.js";
+import { follow, lifeOf } from "../life.js";
 import { latest } from "../lab/curves.js";
 import { part } from "./parts.js";
 
@@ -16,16 +17,13 @@ button[aria-current] { box-shadow: inset 3px 0 0 currentColor; }
 
 /** @param {Pick<Rendering<MomentsModel>, "model" | "el">} rendering */
 export function renderMoments({ model, el }) {
-  const list = part("ol"), listening = new AbortController();
+  const list = part("ol");
   el.replaceChildren(part("style", {}, style), list);
   const mark = (t) => {
     const now = latest(model.rows, t);
-    for (const [i, { firstChild }] of [...list.children].entries()) {
-      if (model.rows[i] === now) firstChild.setAttribute("aria-current", "true");
-      else firstChild.removeAttribute("aria-current");
-    }
+    for (const [i, { firstChild }] of [...list.children].entries()) firstChild.ariaCurrent = model.rows[i] === now ? "true" : null;
   };
-  const show = () => {
+  follow(model, ["rows"], () => {
     list.replaceChildren(...model.rows.map(([t, when, word, more]) => {
       const after = part("span");
       after.innerHTML = more;
@@ -33,9 +31,6 @@ export function renderMoments({ model, el }) {
         part("span", {}, when), part("b", {}, word), after));
     }));
     if (model.rows.length) mark(0);
-  };
-  model.on("rows", show);
-  window.addEventListener(`tippe:clock:${model.clock}`, ({ detail: { t } }) => model.rows.length && mark(t), { signal: listening.signal });
-  model.on("remove", () => listening.abort());
-  show();
+  });
+  followClock(({ t }) => model.rows.length && mark(t), model.clock, lifeOf({ model }));
 }

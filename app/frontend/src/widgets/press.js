@@ -10,15 +10,10 @@ export function onLettingGo(run, signal) {
 
 // now: the number of the present press, from 1; 0 if nothing is pressed.
 export class Press {
-  constructor() {
+  /** @param {AbortSignal} signal */
+  constructor(signal) {
     this.now = this.count = 0;
-    this.listening = new AbortController();
-    const { signal } = this.listening;
     window.addEventListener("pointerdown", () => (this.now = this.count += 1), { capture: true, signal });
     onLettingGo(() => (this.now = 0), signal);
-  }
-
-  leave() {
-    this.listening.abort();
   }
 }

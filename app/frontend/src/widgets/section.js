@@ -5,6 +5,7 @@ import { frame } from "../controls/frame.js";
 import { coalesce, fill, set, tidy } from "../data.js";
 import { clamp } from "../figures/curves.js";
 import { hideReadout, showReadout } from "../figures/readout.js";
+import { atEnd, onLook } from "../life.js";
 import { drawn, part } from "./parts.js";
 
 const REACH = { mouse: 16, touch: 26 }, RING = 8; // px
@@ -102,17 +103,12 @@ class Bench {
     this.layer = drawn("g");
     this.grips = drawn("g");
     this.svg = drawn("svg", { role: "group", "aria-label": model.texts.label }, this.layer, this.grips);
-    frame(rendering, style, part("div", { class: "drawing", "data-figure": "section" }, this.svg));
-    this.update = coalesce(() => this.show());
-    const sizes = new ResizeObserver(this.update);
-    sizes.observe(this.svg);
-    window.addEventListener("tippe:look", this.update);
+    const life = frame(rendering, style, part("div", { class: "drawing", "data-figure": "section" }, this.svg));
+    this.update = coalesce(() => this.show(), life);
+    new ResizeObserver(this.update).observe(this.svg);
+    onLook(this.update, life);
     model.on("state", this.update);
-    model.on("remove", () => {
-      sizes.disconnect();
-      window.removeEventListener("tippe:look", this.update);
-      hideReadout(this);
-    });
+    atEnd(life, () => hideReadout(this));
     this.listen();
   }
 
