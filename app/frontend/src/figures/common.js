@@ -1,6 +1,7 @@
 // Used by all figures. Their models are not synced, so playing sends nothing to the server.
 import { elementOf, pressNever } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
+import { dress } from "../widgets/parts.js";
 import { followClock, isFollowed, LAB } from "./seeking.js";
 
 // To a screen reader a canvas is an image with a name.
@@ -9,9 +10,7 @@ export function nameFigure({ fig, label }) {
   const el = elementOf(fig);
   if (!el) return;
   pressNever(fig);
-  el.setAttribute("role", "img");
-  el.setAttribute("aria-label", label);
-  el.dataset.figure = fig.name;
+  dress(el, { role: "img", "aria-label": label, "data-figure": fig.name });
 }
 
 // Lines at the time of the clock. path: its tags have the unit of time; range: the time axis, which turns a page where

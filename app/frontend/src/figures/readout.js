@@ -1,12 +1,10 @@
 // The values at a place of a figure, in one box for all figures: beside the pointer, inside the window, and never over
 // what it describes.
+import { part } from "../widgets/parts.js";
 
 const GAP = 14, EDGE = 6; // px from the pointer or from what must stay visible, and from the edge of the window
-const STYLE = {
-  position: "fixed", zIndex: "1500", pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px",
-  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink)",
-  background: "var(--card)", border: "1px solid var(--faint)",
-};
+const STYLE = `position: fixed; z-index: 1500; pointer-events: none; max-width: min(280px, calc(100vw - 12px)); padding: 6px 10px; border-radius: 6px;
+  font: calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif); color: var(--ink); background: var(--card); border: 1px solid var(--faint)`;
 
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
 
@@ -45,9 +43,7 @@ let owner;
 
 function boxOf() {
   if (!box?.isConnected) {
-    box = document.createElement("div");
-    box.className = "tippe-readout";
-    Object.assign(box.style, STYLE);
+    box = /** @type {HTMLElement} */ (part("div", { class: "tippe-readout", style: STYLE }));
     document.body.append(box);
   }
   return box;
@@ -63,6 +59,7 @@ export function showReadout(whose, words, hand, clear) {
   const { left, top } = placeBeside(hand, { wide: shown.offsetWidth, high: shown.offsetHeight },
     { wide: innerWidth, high: innerHeight }, clear);
   Object.assign(style, { left: `${left}px`, top: `${top}px` });
+  return shown;
 }
 
 /** @param {object} whose */

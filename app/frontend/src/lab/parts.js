@@ -1,7 +1,7 @@
 // Creates elements of HTML and SVG, and writes numbers.
 import { fill as filled } from "../data.js";
 
-export { Choice, drawn, icon, part } from "../widgets/parts.js";
+export { Choice, drawn, dress, icon, part } from "../widgets/parts.js";
 
 // Writes a number as in the language of the page, with a true minus sign.
 /** @param {number} value @param {number} digits @param {string} decimal */

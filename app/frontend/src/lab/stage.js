@@ -69,9 +69,7 @@ export class Stage {
     this.menu.hidden = !isOpen;
   }
 
-  get tops() {
-    return [this.alone, ...this.three];
-  }
+  get tops() { return [this.alone, ...this.three]; }
 
   show(scene) {
     const { state, texts, table } = scene, three = table === "three";

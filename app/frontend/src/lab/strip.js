@@ -23,7 +23,7 @@ export class Strip extends TimeLine {
       time.again();
       time.play(true);
     } }, icon("again"), ` ${texts.again}`);
-    this.element = part("section", { class: "strip", "aria-label": texts.bar },
+    this.element = part("section", { class: "strip line", "aria-label": texts.bar },
       part("div", { class: "starts" }, this.play, this.clock), this.plot, part("div", { class: "paces" }, this.speed, again));
   }
 
@@ -32,14 +32,10 @@ export class Strip extends TimeLine {
   }
 
   // By the whole: the plot is wider beside short words, and would not be narrow then.
-  get isNarrow() {
-    return this.element.clientWidth < NARROW;
-  }
+  get isNarrow() { return this.element.clientWidth < NARROW; }
 
   // font size in px
-  get size() {
-    return parseFloat(getComputedStyle(this.plot).fontSize);
-  }
+  get size() { return parseFloat(getComputedStyle(this.plot).fontSize); }
 
   y = (tilt) => this.bottom - ((this.bottom - this.top) * tilt) / 180;
 

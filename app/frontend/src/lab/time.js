@@ -26,13 +26,9 @@ export class Time {
   }
 
   // The speed if it is at least the real one and no person chose it; 0 otherwise, and while nothing moves.
-  get fast() {
-    return this.playing && !this.chosen && this.speed >= 1 ? this.speed : 0;
-  }
+  get fast() { return this.playing && !this.chosen && this.speed >= 1 ? this.speed : 0; }
 
-  get speed() {
-    return this.chosen || tempo(this.events, this.t, this.end);
-  }
+  get speed() { return this.chosen || tempo(this.events, this.t, this.end); }
 
   hear({ t, playing }) {
     if (this.held) return;

@@ -1,6 +1,6 @@
 // The paper's Fig. 4 at a moment: the section through contact and axis, and the two lever arms of a push at the
 // contact.
-import { drawn } from "../lab/parts.js";
+import { drawn, dress } from "../lab/parts.js";
 import { float32 } from "../data.js";
 import { sectionAt } from "../figures/sections.js";
 
@@ -46,7 +46,7 @@ export class Arms {
   /** @param {any} element @param {Point} point @param {number} dx @param {number} dy @param {string} anchor */
   word(element, point, dx, dy, anchor) {
     const [x, y] = this.put(point);
-    for (const [name, value] of Object.entries({ x: x + dx, y: y + dy, "text-anchor": anchor })) element.setAttribute(name, String(value));
+    dress(element, { x: x + dx, y: y + dy, "text-anchor": anchor });
   }
 
   /** @param {number} moment a row of the run's curves */
@@ -55,14 +55,13 @@ export class Arms {
     if (i < 0) return;
     const point = (k) => /** @type {Point} */ ([rows[i + k], rows[i + k + 1]]), [axis, G, foot] = [point(0), point(2), point(4)];
     const { x, y } = sectionAt({ axis, G, foot }, this.outline), tip = /** @type {Point} */ ([1.75 * axis[0], 1 + 1.75 * axis[1]]);
-    this.hull.setAttribute("d", `${path(...x.map((value, k) => /** @type {Point} */ ([value, y[k]])))}Z`);
-    this.axis.setAttribute("d", path([-1.2 * axis[0], 1 - 1.2 * axis[1]], tip));
-    this.upwards.setAttribute("d", path([G[0], 0], [G[0], 2.3]));
-    this.own.setAttribute("d", path([0, 0], foot));
-    this.upright.setAttribute("d", path([0, 0.02], [G[0], 0.02]));
-    for (const [shape, at] of /** @type {[any, Point][]} */ ([[this.mass, G], [this.push, [0, 0]]])) {
-      shape.setAttribute("transform", `translate(${this.put(at).map((v) => v.toFixed(1)).join(" ")})`);
-    }
+    dress(this.hull, { d: `${path(...x.map((value, k) => /** @type {Point} */ ([value, y[k]])))}Z` });
+    dress(this.axis, { d: path([-1.2 * axis[0], 1 - 1.2 * axis[1]], tip) });
+    dress(this.upwards, { d: path([G[0], 0], [G[0], 2.3]) });
+    dress(this.own, { d: path([0, 0], foot) });
+    dress(this.upright, { d: path([0, 0.02], [G[0], 0.02]) });
+    dress(this.mass, { transform: `translate(${this.put(G).join(" ")})` });
+    dress(this.push, { transform: `translate(${this.put([0, 0]).join(" ")})` });
     const clear = 14 / this.scale; // px above the line of the table, in R
     const side = G[0] <= 0 ? 1 : -1, [near, far] = side > 0 ? ["start", "end"] : ["end", "start"];
     this.word(words.push, [0, 0], 0, 20, "middle");

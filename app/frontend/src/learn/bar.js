@@ -11,12 +11,10 @@ export class Bar extends TimeLine {
   constructor(texts, time) {
     super(texts, time, { label: texts.lesson.time, step: "any" });
     this.note = part("p", { class: "small" });
-    this.element = part("section", { class: "bar", "aria-label": texts.lesson.bar }, this.play, this.plot, this.note);
+    this.element = part("section", { class: "bar line", "aria-label": texts.lesson.bar }, this.play, this.plot, this.note);
   }
 
-  get whole() {
-    return this.scene.step.end;
-  }
+  get whole() { return this.scene.step.end; }
 
   show(scene) {
     this.scene = scene;

@@ -66,13 +66,9 @@ class Lesson {
   }
 
   // The steps of the part that is shown: the lesson, or the part for theorists.
-  get steps() {
-    return this.model.steps.filter(({ theory }) => theory === this.step?.theory);
-  }
+  get steps() { return this.model.steps.filter(({ theory }) => theory === this.step?.theory); }
 
-  get record() {
-    return (this.kept[this.step.name] ??= { seen: 0 });
-  }
+  get record() { return (this.kept[this.step.name] ??= { seen: 0 }); }
 
   go(by) {
     const next = this.steps[this.steps.indexOf(this.step) + by];
@@ -92,13 +88,9 @@ class Lesson {
     this.showQuestion();
   }
 
-  get role() {
-    return this.model.state.role ?? "";
-  }
+  get role() { return this.model.state.role ?? ""; }
 
-  get room() {
-    return this.model.state.room ?? {};
-  }
+  get room() { return this.model.state.room ?? {}; }
 
   // ---- in front of a class ----
 

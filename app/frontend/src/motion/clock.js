@@ -78,29 +78,17 @@ export class Place {
     atEnd(life, () => clocks.set(this.name, on(this.name).filter((other) => other !== this)));
   }
 
-  get suffix() {
-    return this.name ? `:${this.name}` : "";
-  }
+  get suffix() { return this.name ? `:${this.name}` : ""; }
 
-  get isSeen() {
-    return this.inView() && this.picture.clientWidth > 0 && this.player.frames.count > 0;
-  }
+  get isSeen() { return this.inView() && this.picture.clientWidth > 0 && this.player.frames.count > 0; }
 
-  get others() {
-    return this.name ? on(this.name).filter((other) => other !== this) : [];
-  }
+  get others() { return this.name ? on(this.name).filter((other) => other !== this) : []; }
 
-  get leader() {
-    return this.name ? leaderOf(this.name) : this;
-  }
+  get leader() { return this.name ? leaderOf(this.name) : this; }
 
-  get leads() {
-    return this.leader === this;
-  }
+  get leads() { return this.leader === this; }
 
-  get moves() {
-    return this.player.playing && this.player.frames.count > 1;
-  }
+  get moves() { return this.player.playing && this.player.frames.count > 1; }
 
   // Takes over the time of the other tops, or Python's; to be called once, with the first motion.
   begin() {

@@ -32,13 +32,9 @@ export class Frames {
     }
   }
 
-  get start() {
-    return this.count ? this.time(0) : 0;
-  }
+  get start() { return this.count ? this.time(0) : 0; }
 
-  get end() {
-    return this.count ? this.time(this.count - 1) : 0;
-  }
+  get end() { return this.count ? this.time(this.count - 1) : 0; }
 
   /** @param {number} i */
   time(i) {

@@ -23,13 +23,9 @@ export class Player {
     this.playing = false;
   }
 
-  get place() {
-    return this.frames.count ? this.frames.place(this.t) : 0;
-  }
+  get place() { return this.frames.count ? this.frames.place(this.t) : 0; }
 
-  get index() {
-    return Math.floor(this.place);
-  }
+  get index() { return Math.floor(this.place); }
 
   // Where playing ends; Infinity if it repeats.
   get last() {

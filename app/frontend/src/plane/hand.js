@@ -36,9 +36,7 @@ export class Hand {
   }
 
   // What is held.
-  get grip() {
-    return this.press?.moved && !this.press.scrolls ? this.press.grip : null;
-  }
+  get grip() { return this.press?.moved && !this.press.scrolls ? this.press.grip : null; }
 
   get scales() {
     const { x, y } = this.figure.picture.plots.plane;

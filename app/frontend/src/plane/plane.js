@@ -5,7 +5,7 @@ import { followClock } from "../figures/seeking.js";
 import { followLook, lifeOf, report } from "../life.js";
 import { timeOf } from "../motion/clock.js";
 import { nameOf, ROLLS } from "../regimes.js";
-import { part } from "../widgets/parts.js";
+import { dress, part } from "../widgets/parts.js";
 import { Hand } from "./hand.js";
 import { Picture } from "./picture.js";
 import { limitsFrom } from "./reading.js";
@@ -67,9 +67,7 @@ export class PlaneFigure {
     report("plane", () => this.report(), life);
   }
 
-  get shown() {
-    return this.state;
-  }
+  get shown() { return this.state; }
 
   // Of a key that moves K_J.
   get step() {
@@ -127,8 +125,7 @@ export class PlaneFigure {
   value(grip, [least, most], now, text) {
     const slider = this.picture.chosen.grips[grip];
     if (slider.getAttribute("aria-valuetext") === text) return;
-    const values = { valuemin: Math.min(least, now), valuemax: Math.max(most, now), valuenow: now, valuetext: text };
-    for (const [name, value] of Object.entries(values)) slider.setAttribute(`aria-${name}`, String(value));
+    dress(slider, { "aria-valuemin": Math.min(least, now), "aria-valuemax": Math.max(most, now), "aria-valuenow": now, "aria-valuetext": text });
   }
 
   // The bead at a time of the clock; the motion repeats.

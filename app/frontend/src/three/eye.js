@@ -26,9 +26,7 @@ export class Eye {
   }
 
   /** @returns {[x: number, y: number, z: number]} */
-  get direction() {
-    return this.camera.position.clone().sub(this.seen).normalize().toArray();
-  }
+  get direction() { return this.camera.position.clone().sub(this.seen).normalize().toArray(); }
 
   /** @param {number} now in ms @param {boolean} playing */
   follow(now, playing) {

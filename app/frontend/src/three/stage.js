@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { bufferOf, likeAScreen } from "../borrowed.js";
 import { atEnd } from "../life.js";
-import { part } from "../widgets/parts.js";
+import { dress, part } from "../widgets/parts.js";
 import { isHandOn } from "./hand.js";
 import { letGo } from "./scene.js";
 
@@ -72,10 +72,7 @@ export class Stage {
     this.fineness = 1;
 
     const canvas = this.renderer.domElement;
-    canvas.tabIndex = 0;
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", label);
-    canvas.title = texts.hint;
+    dress(canvas, { tabindex: 0, role: "img", "aria-label": label, title: texts.hint });
     holder.append(canvas);
 
     this.controls = new OrbitControls(this.camera, canvas);
@@ -252,9 +249,7 @@ export class Stage {
     if (simple === this.simple) return;
     this.simple = simple;
     this.renderer.shadowMap.autoUpdate = !simple;
-    this.scene.traverse((/** @type {any} */ object) => {
-      if (object.isLineSegments2 && object.geometry.instanceCount > LONG_LINE) object.layers.set(simple ? 1 : 0);
-    });
+    this.scene.traverse((/** @type {any} */ object) => object.isLineSegments2 && object.geometry.instanceCount > LONG_LINE && object.layers.set(simple ? 1 : 0));
   }
 
   // Starts a picture, which the graphics process draws while the page goes on; present() puts it on the screen.

@@ -3,12 +3,14 @@ import * as THREE from "three";
 import { Axes, Scale } from "./axes.js";
 import { colours } from "../colours.js";
 import { coalesce, float32, local } from "../data.js";
-import { lifeOf, report } from "../life.js";
+import { hideReadout, showReadout } from "../figures/readout.js";
+import { atEnd, lifeOf, report } from "../life.js";
 import { Labels } from "./labels.js";
 import { wordOf } from "../regimes.js";
 import { followScene } from "./scene.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "../style.js";
+import { part } from "../widgets/parts.js";
 import { SurfaceHand } from "./surface_hand.js";
 import { dot, SurfaceLines } from "./surface_lines.js";
 import { Grid, SurfaceMesh } from "./surface_mesh.js";
@@ -53,12 +55,9 @@ export class Surface {
     this.lines = new SurfaceLines(scene, this.labels, this.scales, clippingPlanes);
     this.marker = dot(colours.theta, 0.024);
     scene.add(this.mesh.object, this.marker);
-    this.readout = document.createElement("div");
-    this.readout.className = "readout";
-    this.readout.hidden = true;
-    this.key = document.createElement("div");
-    this.key.className = "key";
-    picture.append(this.readout);
+    /** @type {HTMLElement | null} */
+    this.readout = null; // while it shows values
+    this.key = part("div", { class: "key" });
     picture.after(this.key); // below the picture: on it, it would hide the numbers of an axis
     this.grid = new Grid({ K_J: float32(), theta: float32(), height: float32(), energy: float32() });
     this.selected = { K_J: NaN, inner: 0, outer: 0 }; // the selected motion
@@ -83,10 +82,6 @@ export class Surface {
     this.lines.dress(look);
     this.axes.dress(look);
     this.stage.invalidate();
-  }
-
-  get isRead() {
-    return !this.readout.hidden;
   }
 
   update() {
@@ -145,25 +140,24 @@ export class Surface {
   /** @param {PointerEvent} event */
   readWrong(event) {
     if (this.wrong) this.readAt(event, this.wrong);
-    else this.readout.hidden = true;
+    else this.hideReadout();
+  }
+
+  hideReadout() {
+    hideReadout(this);
+    this.readout = null;
   }
 
   readNothing() {
-    if (!this.isRead) return;
-    this.readout.hidden = true;
+    if (!this.readout) return;
+    this.hideReadout();
     this.marker.visible = false;
     this.stage.invalidate();
   }
 
   /** @param {PointerEvent} event @param {string} html */
   readAt({ clientX, clientY }, html) {
-    const { readout } = this;
-    readout.innerHTML = html;
-    readout.hidden = false;
-    const box = this.picture.getBoundingClientRect();
-    const left = Math.min(clientX - box.left + 16, box.width - readout.offsetWidth - 8);
-    const top = Math.max(clientY - box.top - readout.offsetHeight - 12, 8);
-    readout.style.transform = `translate(${left}px, ${top}px)`;
+    this.readout = showReadout(this, html, [clientX, clientY], []);
   }
 
   /** @param {number} now of the window */
@@ -193,13 +187,14 @@ export class Surface {
     for (const name of ["selected", "selected_curve"]) model.on(name, onSelected);
     this.update();
     report("surface3d", () => this.report(), life);
+    atEnd(life, () => hideReadout(this));
   }
 
   // grips: where on the page the ends of the selected motion can be grabbed
   report() {
-    const { grid: { rows, columns, ...grid }, stage: { pictures }, shown: selected, selected: { inner, outer }, isRead, readout } = this;
+    const { grid: { rows, columns, ...grid }, stage: { pictures }, shown: selected, selected: { inner, outer }, readout } = this;
     const [K_J, theta, height] = [grid.K_J, grid.theta, grid.height].map((values) => Array.from(values));
-    return { rows, columns, K_J, theta, height, pictures, selected, grips: [inner, outer].map((end) => this.hand.onPage(end)), readout: isRead ? readout.textContent : "" };
+    return { rows, columns, K_J, theta, height, pictures, selected, grips: [inner, outer].map((end) => this.hand.onPage(end)), readout: readout?.textContent ?? "" };
   }
 }
 

@@ -94,7 +94,7 @@ export class SurfaceHand {
 
   // New values under a mouse that rests.
   refresh() {
-    if (this.surface.isRead && this.last && !this.gripped) this.hover();
+    if (this.surface.readout && this.last && !this.gripped) this.hover();
   }
 
   // Shows the values of the surface under the pointer; beyond the ends of the tielines, why there is no surface. Where

@@ -14,7 +14,8 @@ import { Measured } from "./measured.js";
 import { photo } from "./photo.js";
 import { colourOf, wordOf } from "../regimes.js";
 import { tryStage } from "./stage.js";
-import { addText, frameIn } from "../style.js";
+import { frameIn } from "../style.js";
+import { part } from "../widgets/parts.js";
 import { TopScene } from "./top_scene.js";
 /** @import { Stage } from "./stage.js" */
 
@@ -32,8 +33,9 @@ class Top {
     this.highlight = /** @type {Pointed | null} */ (null); // from a tippe:highlight
     this.scene = new TopScene(stage, life);
     this.eye = new Eye(stage, model, this.scene.stands, () => this.scene.body.reach ?? 2);
-    this.verdict = addText(picture, "verdict");
-    this.scalesText = addText(picture, "scales");
+    this.verdict = part("div", { class: "verdict" });
+    this.scalesText = part("div", { class: "scales" });
+    picture.append(this.verdict, this.scalesText);
     this.place = new Place({
       model, picture, life, report: this.report, changed: () => stage.invalidate(),
       inView: () => stage.inView,

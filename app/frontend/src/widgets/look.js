@@ -66,9 +66,7 @@ class Look {
   }
 
   // As a person chose, otherwise as the operating system has it.
-  get isDark() {
-    return this.model.dark ?? this.system.matches;
-  }
+  get isDark() { return this.model.dark ?? this.system.matches; }
 
   update = () => {
     const { isDark: dark, model: { large } } = this;
@@ -78,9 +76,7 @@ class Look {
   };
 
   // Whether new models have come, because a tab is created when it is first opened.
-  get isUndone() {
-    return this.name !== "light" && this.doc.all_models.size !== this.seen;
-  }
+  get isUndone() { return this.name !== "light" && this.doc.all_models.size !== this.seen; }
 }
 
 /** @param {Pick<Rendering<LookModel>, "model">} rendering */

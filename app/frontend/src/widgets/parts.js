@@ -1,7 +1,8 @@
 // Elements of HTML and SVG, and a group of buttons of which one is chosen.
 const DRAWING = "http://www.w3.org/2000/svg";
 
-function dress(element, attributes, children) {
+/** Sets attributes, except those that are undefined or false, and listeners. @param {any} element @param {Record<string, any>} attributes @param {any[]} [children] to be appended */
+export function dress(element, attributes, children = []) {
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) element[name] = value;
     else if (value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : String(value));

@@ -59,9 +59,7 @@ export class Tour {
     signal.addEventListener("abort", () => clearInterval(this.watching));
   }
 
-  get isOn() {
-    return !this.stop.hidden;
-  }
+  get isOn() { return !this.stop.hidden; }
 
   /** @param {Element | null} active */
   begin(active) {
