@@ -33,10 +33,13 @@ export const valued = (text) => JSON.parse(text, (_, value) => (typeof value?.ba
 
 // The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a round number for a scale.
 /** @param {number} x */
-export function niceAbove(x) {
-  if (!(x > 0) || !isFinite(x)) return 1;
-  const decade = 10 ** Math.floor(Math.log10(x));
-  return decade * ([1, 1.5, 2, 3, 4, 5, 6, 8].find((digits) => digits * decade >= x * (1 - 1e-9)) ?? 10);
+export const niceAbove = (x) => (x > 0 && isFinite(x) ? stepOf(x, [1, 1.5, 2, 3, 4, 5, 6, 8]) : 1);
+
+// The smallest round number that is not below another.
+/** @param {number} rough @param {number[]} digits that it may begin with */
+export function stepOf(rough, digits = [1, 2, 5]) {
+  const decade = 10 ** Math.floor(Math.log10(rough));
+  return decade * (digits.find((digit) => digit * decade >= rough * (1 - 1e-9)) ?? 10);
 }
 
 // Puts numbers into a text of browser.toml.

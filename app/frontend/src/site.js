@@ -58,9 +58,7 @@ class Site {
   }
 
   /** @param {string} id @returns {any} */
-  element(id) {
-    return document.getElementById(id);
-  }
+  element(id) { return document.getElementById(id); }
 
   // Shows the room; answered: how many requests of the head were.
   /** @param {number} answered */

@@ -96,9 +96,7 @@ class Group {
     return choice.element;
   }
 
-  words() {
-    return part("p", { class: "small" });
-  }
+  words() { return part("p", { class: "small" }); }
 
   number({ name, said, lines, marks }) {
     const control = new Control(name, said, this.model.texts, this.ask);

@@ -25,7 +25,7 @@ export function placeBeside([x, y], { wide, high }, page, clear) {
   const own = { left: x - GAP / 2, right: x + GAP / 2, top: y - GAP / 2, bottom: y + GAP / 2 }, kept = [own, ...clear];
   const level = y - high / 2, middle = x - wide / 2;
   const places = [[x + GAP, level], [x - GAP - wide, level], [middle, y - GAP - high], [middle, y + GAP],
-    ...kept.flatMap((box) => [[middle, box.top - GAP - high], [middle, box.bottom + GAP]])];
+    ...kept.flatMap((each) => [[middle, each.top - GAP - high], [middle, each.bottom + GAP], [each.right + GAP, level], [each.left - GAP - wide, level]])];
   let found = { left: 0, top: 0 }, least = Infinity;
   for (const [across, down] of places) {
     const left = inside(across, wide, page.wide), top = inside(down, high, page.high);

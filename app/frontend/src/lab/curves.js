@@ -1,5 +1,5 @@
 // One run over time, as numbers to draw: app/tabs/lab/lab.py says what each column contains.
-import { float32, rowBefore } from "../data.js";
+import { float32, rowBefore, stepOf } from "../data.js";
 
 const WIDTH = 8;
 export const TABLES = ["ordinary", "rough", "ice"];
@@ -15,9 +15,7 @@ export class Curves {
   get end() { return this.count ? this.value(this.count - 1, TIME) : 0; }
 
   /** @param {number} i @param {number} column */
-  value(i, column) {
-    return this.rows[i * WIDTH + column];
-  }
+  value(i, column) { return this.rows[i * WIDTH + column]; }
 
   // The last row at or before t.
   /** @param {number} t */
@@ -68,13 +66,6 @@ export function ticks(least, most, count, step = stepOf((most - least) / count))
   const found = [];
   for (let i = Math.ceil(least / step - 1e-6); i * step <= most + 1e-3 * step; i++) found.push(i * step);
   return found;
-}
-
-// The smallest round step that is not below a rough one.
-/** @param {number} rough @param {number[]} digits that it may begin with */
-export function stepOf(rough, digits = [1, 2, 5]) {
-  const decade = 10 ** Math.floor(Math.log10(rough));
-  return decade * (digits.find((digit) => digit * decade >= rough * (1 - 1e-9)) ?? 10);
 }
 
 // How many digits numbers at such distances need.

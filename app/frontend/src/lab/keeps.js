@@ -1,6 +1,5 @@
 // For three tables: what each of them conserves, from the start to the present moment. Python says how far.
-import { rowBefore } from "../data.js";
-import { float32 } from "../data.js";
+import { float32, rowBefore } from "../data.js";
 import { TABLES } from "./curves.js";
 import { drawn, part, say, written } from "./parts.js";
 

@@ -2,16 +2,19 @@
 // contact.
 import { drawn, dress } from "../lab/parts.js";
 import { float32 } from "../data.js";
-import { sectionAt } from "../figures/sections.js";
 
 /** @typedef {[number, number]} Point */
 const ROW = 6; // numbers for each moment: the axis, G, and the foot of the perpendicular to the axis, seen from the contact
+
+// A point of the outline where the axis points there; O is above the contact, which is at (0, 0).
+/** @param {Point} point @param {Point} axis @returns {Point} */
+export const turned = ([across, along], [e, f]) => [across * f + along * e, 1 - across * e + along * f];
 
 export class Arms {
   /** @param {Record<string, string>} said */
   constructor(said) {
     this.rows = new Float32Array(0);
-    this.outline = { across: /** @type {number[]} */ ([]), along: /** @type {number[]} */ ([]) };
+    this.outline = /** @type {Point[]} */ ([]); // across the axis, and along it from O
     /** @type {(point: Point) => Point} */
     this.put = (point) => point;
     this.scale = 1; // px in one R
@@ -30,9 +33,9 @@ export class Arms {
 
   /** @param {LessonRun} run @param {number} width @param {number} height */
   draw(run, width, height) {
-    const profile = float32(run.profile), radius = profile.filter((_, i) => i % 2 === 0), along = profile.filter((_, i) => i % 2);
+    const profile = float32(run.profile), side = Array.from({ length: profile.length >> 1 }, (_, i) => /** @type {Point} */ ([profile[2 * i], profile[2 * i + 1]]));
     this.rows = float32(run.arms);
-    this.outline = { across: [...radius, ...radius.map((r) => -r).reverse()], along: [...along, ...along.slice().reverse()] };
+    this.outline = [...side, ...side.map(([r, z]) => /** @type {Point} */ ([-r, z])).reverse()];
     const scale = Math.min(width / 5.4, height / 2.9), x0 = width / 2, y0 = height - 22;
     this.scale = scale;
     this.put = ([x, y]) => /** @type {Point} */ ([x0 + scale * x, y0 - scale * y]);
@@ -54,8 +57,8 @@ export class Arms {
     const { rows, words, path } = this, i = ROW * Math.min(moment, rows.length / ROW - 1);
     if (i < 0) return;
     const point = (k) => /** @type {Point} */ ([rows[i + k], rows[i + k + 1]]), [axis, G, foot] = [point(0), point(2), point(4)];
-    const { x, y } = sectionAt({ axis, G, foot }, this.outline), tip = /** @type {Point} */ ([1.75 * axis[0], 1 + 1.75 * axis[1]]);
-    dress(this.hull, { d: `${path(...x.map((value, k) => /** @type {Point} */ ([value, y[k]])))}Z` });
+    const tip = /** @type {Point} */ ([1.75 * axis[0], 1 + 1.75 * axis[1]]);
+    dress(this.hull, { d: `${path(...this.outline.map((each) => turned(each, axis)))}Z` });
     dress(this.axis, { d: path([-1.2 * axis[0], 1 - 1.2 * axis[1]], tip) });
     dress(this.upwards, { d: path([G[0], 0], [G[0], 2.3]) });
     dress(this.own, { d: path([0, 0], foot) });

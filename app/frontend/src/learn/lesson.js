@@ -286,9 +286,7 @@ class Lesson {
       this.link(lesson.worksheet, () => this.paper()), this.link(lesson.room.present, () => this.present(true)));
   }
 
-  link(word, onclick) {
-    return part("button", { type: "button", class: "link", onclick }, word);
-  }
+  link(word, onclick) { return part("button", { type: "button", class: "link", onclick }, word); }
 
   // Opens a page to print in a new window, or saves it where there may be none; it needs no server.
   paper() {

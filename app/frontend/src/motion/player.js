@@ -123,9 +123,7 @@ export class Player {
 
   // Where a paused motion stands for a time: on a frame if it repeats, else there, also between two frames.
   /** @param {number} t */
-  stand(t) {
-    return this.last < Infinity ? this.within(t) : this.frames.time(this.frames.nearest(t));
-  }
+  stand(t) { return this.last < Infinity ? this.within(t) : this.frames.time(this.frames.nearest(t)); }
 
   /** @param {number} index */
   land(index) {

@@ -50,16 +50,14 @@ export class Hand {
   }
 
   /** @returns {[theta: number, K_J: number]} */
-  placeOf([px, py]) {
-    return [this.scales.x.invert(px), this.scales.y.invert(py)];
-  }
+  placeOf([px, py]) { return [this.scales.x.invert(px), this.scales.y.invert(py)]; }
 
   isOnTieline([px, py]) {
-    return Boolean(this.figure.state) && awayFromTieline(this.figure.shown, px, py, this.scales) < REACH;
+    return Boolean(this.figure.state) && awayFromTieline(this.figure.state, px, py, this.scales) < REACH;
   }
 
   gripAt(point) {
-    const { shown, theta, limits } = this.figure;
+    const { state: shown, theta, limits } = this.figure;
     return gripAt({ ...shown, theta }, limits, point, this.placeOf(point), this.scales);
   }
 
@@ -114,7 +112,7 @@ export class Hand {
   pull(point, done) {
     const [theta, K_J] = this.placeOf(point), grip = /** @type {string} */ (this.grip);
     if (grip === "bead") this.moveClock(theta, !done);
-    else this.ask(grip, theta, grip === "end" ? this.figure.shown.K_J : grip === "tieline" && done ? this.rowNear(K_J) : K_J);
+    else this.ask(grip, theta, grip === "end" ? this.figure.state.K_J : grip === "tieline" && done ? this.rowNear(K_J) : K_J);
     this.told();
   }
 
@@ -129,7 +127,7 @@ export class Hand {
 
   // The clock may be in a later nutation than the one that is known.
   moveClock(theta, held) {
-    const { motion, shown, now, model } = this.figure, { inner, outer, period } = shown;
+    const { motion, state: shown, now, model } = this.figure, { inner, outer, period } = shown;
     const turns = period > 0 ? Math.max(Math.floor(now / period), 0) * period : 0;
     seek(turns + timeAtTilt(motion, clamp(theta, inner, outer), now - turns), held, model.clock);
   }
@@ -149,7 +147,7 @@ export class Hand {
 
   // While the pointer drags: why the motion there is impossible.
   told() {
-    const { grip, figure } = this, { worst } = figure.shown;
+    const { grip, figure } = this, { worst } = figure.state;
     if (!grip) return;
     const words = grip !== "bead" && worst !== ROLLS ? wordOf(worst, figure.model.texts.regimes) : undefined;
     if (words) this.say(words);
@@ -158,7 +156,7 @@ export class Hand {
 
   // Beside the hand, clear of the selected tieline.
   say(words) {
-    const { shown } = this.figure, { left, top } = this.figure.drawing.getBoundingClientRect(), { x, y } = this.scales;
+    const { state: shown } = this.figure, { left, top } = this.figure.drawing.getBoundingClientRect(), { x, y } = this.scales;
     const [px, py] = /** @type {[number, number]} */ (this.at), level = top + y(shown.K_J);
     showReadout(this, words, [left + px, top + py],
       [{ left: left + x(shown.inner) - REACH, right: left + x(shown.outer) + REACH, top: level - REACH, bottom: level + REACH }]);
@@ -170,7 +168,7 @@ export class Hand {
     if (!name || !sign || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
-    const { figure, keyed } = this, { shown, now } = figure, goesOn = keyed.name === name && event.timeStamp - keyed.when < HELD;
+    const { figure, keyed } = this, { state: shown, now } = figure, goesOn = keyed.name === name && event.timeStamp - keyed.when < HELD;
     const { value, step } = { line: { value: shown.K_J, step: figure.step }, end: { value: shown.outer, step: TILT }, bead: { value: now, step: shown.period / 64 } }[name];
     const next = (goesOn ? keyed.value : value) + sign * step;
     this.keyed = { name, value: next, when: event.timeStamp };

@@ -67,8 +67,6 @@ export class PlaneFigure {
     report("plane", () => this.report(), life);
   }
 
-  get shown() { return this.state; }
-
   // Of a key that moves K_J.
   get step() {
     const [low, high] = this.state.K_J_range;

@@ -1,7 +1,7 @@
 // The box around a surface: floor and back walls with a grid, and ticks and names on the edges nearest to the camera.
 import * as THREE from "three";
-import { local } from "../data.js";
-import { stepOf, ticks } from "../lab/curves.js";
+import { local, stepOf } from "../data.js";
+import { ticks } from "../lab/curves.js";
 /** @import { Labels } from "./labels.js" */
 /** @import { Stage } from "./stage.js" */
 

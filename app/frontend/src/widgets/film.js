@@ -6,6 +6,7 @@ import { atEnd } from "../life.js";
 import { progress } from "../controls/style.js";
 import { part, say } from "../lab/parts.js";
 import { HIGH, labInSight, timesOf, WIDE } from "../motion/filmed.js";
+import { modelOf } from "../stand_in.js";
 import { save } from "./saving.js";
 
 const MOST_S = 30, TELL_MS = 50, HD = { width: WIDE, height: HIGH, rate: 30 };
@@ -78,14 +79,11 @@ class Films {
 
   // The two ends are the control of other rooms; here nobody but this hears of it.
   bound(value) {
-    /** @type {any} */
-    const ends = { texts: this.texts, label: this.texts.stretch, start: 0, end: this.end, step: 0.01, digits: 2, unit: "s", value, pulled: [0, 0, 0], on() {} };
-    this.ends = new Proxy(ends, { set: (of, name, news) => {
-      of[name] = news;
-      if (name === "pulled") of.value = news.slice(1);
+    const ends = (this.ends = modelOf({ texts: this.texts, label: this.texts.stretch, start: 0, end: this.end, step: 0.01, digits: 2, unit: "s", value, pulled: [0, 0, 0] }));
+    ends.on("pulled", () => {
+      ends.value = ends.pulled.slice(1);
       this.look();
-      return true;
-    } });
+    });
     renderStretch({ model: this.ends, el: this.stretch, view: this.inner });
   }
 

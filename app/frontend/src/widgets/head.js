@@ -88,9 +88,7 @@ class Head {
     ask(this.model, [++this.count, name, value]);
   }
 
-  roomOf(kind, chosen) {
-    return this.model.state[kind].find(([name]) => name === chosen)[2];
-  }
+  roomOf(kind, chosen) { return this.model.state[kind].find(([name]) => name === chosen)[2]; }
 
   // Switches the tab at once; Python is told, and creates what does not exist yet.
   turn(room) {

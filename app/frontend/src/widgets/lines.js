@@ -57,9 +57,7 @@ class Lines {
     });
   }
 
-  row(plane) {
-    return rowAt(this.tables[plane], this.now);
-  }
+  row(plane) { return rowAt(this.tables[plane], this.now); }
 
   valueOf(name, plane) {
     const { at, size } = this.model.symbols[name];
