@@ -104,8 +104,9 @@ export function local(text, language = typeof document === "undefined" ? "" : (d
   return text.replaceAll("-", "−").replace(".", points[language]);
 }
 
-// With three significant digits.
+// With so many significant digits, as short as it can be written.
 /** @param {number} number */
-export function tidy(number) {
-  return local(String(Number(number.toPrecision(3))));
-}
+export const tidy = (number, digits = 3) => local(String(Number(number.toPrecision(digits))));
+
+/** @param {number} angle in rad */
+export const degrees = (angle) => (180 / Math.PI) * angle;

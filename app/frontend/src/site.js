@@ -5,7 +5,7 @@ import { nearestRow } from "./figures/curves.js";
 import { inOneLanguage } from "./first.js";
 import { TABLES } from "./lab/curves.js";
 import { renderLab } from "./lab/lab.js";
-import { written } from "./lab/parts.js";
+import { written } from "./widgets/parts.js";
 import { renderLesson } from "./learn/lesson.js";
 import { drawIn } from "./letter.js";
 import { numbersIn } from "./stand_in.js";

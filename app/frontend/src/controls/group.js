@@ -5,7 +5,7 @@ import { Picks } from "./picks.js";
 import { dock, forFingers, numbers, segments, shared } from "./style.js";
 import { ask } from "../data.js";
 import { Asking } from "../lab/asking.js";
-import { Choice, part } from "../lab/parts.js";
+import { Choice, part } from "../widgets/parts.js";
 
 const style = `${shared}${numbers}${segments}
 .group { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 220px), 1fr)); gap: 8px 24px; align-items: start; }

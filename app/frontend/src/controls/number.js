@@ -1,8 +1,8 @@
 // The number control: a slider, a field for a number, and below them an error message, marks and remarks, or how runs end.
-import { fill, local } from "../data.js";
+import { fill, tidy } from "../data.js";
 import { entry } from "./entry.js";
 import { explain } from "./wrong.js";
-import { part, read, say, written } from "../lab/parts.js";
+import { part, read, say, written } from "../widgets/parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, WIDE = 5.6, APART = 16; // px: least width of the strip of ends, a letter below it, a gap between words
@@ -76,7 +76,7 @@ export class Control {
   /** @param {number} value */
   print(value) {
     const { digits } = this.limits;
-    return digits === null ? local(String(Number(value.toPrecision(6)))) : written(value, digits, this.texts.decimal);
+    return digits === null ? tidy(value, 6) : written(value, digits, this.texts.decimal);
   }
 
   /** @param {number} value */

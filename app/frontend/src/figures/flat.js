@@ -15,8 +15,6 @@ const WIDTH = 640; // px: width of a printed picture if the one on the page has 
 
 const centre = new Vector3();
 
-const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
-
 // The outline of a body whose radius is R px, tilted about O at (x, y), with a mark that turns with the body.
 /** @param {CanvasRenderingContext2D} pen @param {Float32Array} profile @param {{ x: number, y: number, R: number, tilt: number, turn: number, edge: string }} place */
 function drawBody(pen, profile, { x, y, R, tilt, turn, edge }) {
@@ -97,10 +95,10 @@ class Flat {
   paint(on, width, height, scale) {
     const pen = penOf(on), { player, pose, model } = this, look = /** @type {Record<string, any>} */ (this.look);
     pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.fillStyle = hex(look.sky);
+    pen.fillStyle = look.sky;
     pen.fillRect(0, 0, width, height);
     const R = height / (this.reach + 1.3 + BELOW), table = height - BELOW * R;
-    pen.fillStyle = hex(look.table);
+    pen.fillStyle = look.table;
     pen.fillRect(0, table, width, height - table);
     this.verdict = model.texts.no_motion;
     if (!player.frames.count) return;
@@ -108,8 +106,8 @@ class Flat {
     const { x, y, z, w } = pose.quaternion;
     const tilt = pose.theta, psi = Math.atan2(z, w) - Math.atan2(y, x);
     centreOf(pose, model.a, centre);
-    drawBody(pen, float32(model.profile), { x: width / 2, y: table - centre.z * R, R, tilt, turn: psi, edge: hex(look.edge) });
-    pen.fillStyle = hex(look.ink);
+    drawBody(pen, float32(model.profile), { x: width / 2, y: table - centre.z * R, R, tilt, turn: psi, edge: look.edge });
+    pen.fillStyle = look.ink;
     pen.font = "600 15px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.fillText(`θ = ${local(((180 * tilt) / Math.PI).toFixed(1))}°`, width / 2, 24);

@@ -14,9 +14,7 @@ export const gestureOf = ({ event_name: name }) => (name === "doubletap" ? "tap"
 
 // Takes the time from the figure's time axis. path: its tags have the unit of that axis.
 /** @param {{ clock?: string, path?: Source }} given @param {Happened} event */
-export function seekAlong({ clock, path }, event) {
-  seek(event.x / (path?.tags[0] ?? 1), isDown(event), clock);
-}
+export const seekAlong = ({ clock, path }, event) => seek(event.x / (path?.tags[0] ?? 1), isDown(event), clock);
 
 // Bokeh calls this each time a figure is resized, the first time as soon as there is something to move. Only the first
 // call may register listeners.

@@ -4,7 +4,7 @@ import { caps, trail } from "./caps.js";
 import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
 import { levels as grid, marks, times } from "./line.js";
 import { lineOf } from "./numbers.js";
-import { Choice, drawn, dress, part, say } from "./parts.js";
+import { Choice, drawn, dress, part, say } from "../widgets/parts.js";
 import { Frames } from "../motion/frames.js";
 
 const NAMES = ["energy", "spin", "path", "trace"];

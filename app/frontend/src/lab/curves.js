@@ -56,9 +56,7 @@ export class Curves {
 
 // The last list that has begun; each starts with its time.
 /** @param {any[][]} list @param {number} t */
-export function latest(list, t) {
-  return list.filter(([from]) => from <= t + 1e-9).at(-1) ?? list[0];
-}
+export const latest = (list, t) => list.filter(([from]) => from <= t + 1e-9).at(-1) ?? list[0];
 
 // Round numbers from least to most, about `count` of them.
 /** @param {number} least @param {number} most @param {number} count */

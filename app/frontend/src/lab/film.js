@@ -4,7 +4,7 @@ import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
 import { SPEEDS, Time } from "./time.js";
-import { Words } from "./words.js";
+import { wordsOf } from "./words.js";
 import { penOf } from "../data.js";
 import { followLook } from "../life.js";
 import { filmedOn } from "../motion/clock.js";
@@ -32,7 +32,7 @@ export class Film {
     const nothing = () => {}, life = this.life.signal, time = (this.time = new Time(nothing, life, CLOCK));
     this.stage = new Stage(texts, time, nothing, { camera: model.camera, life });
     this.strip = new Strip(texts, time);
-    this.words = new Words(texts, nothing, nothing);
+    this.words = wordsOf(texts, nothing, nothing);
     Object.assign(time, { unit: model.seconds, end: scene.end, span, events: scene.run?.events ?? [], chosen: lab.time.chosen, playing: true, held: true });
     this.pace = part("span");
     this.strip.element.lastChild.append(this.pace);

@@ -8,15 +8,15 @@ import { Curves, TABLES } from "./curves.js";
 import { Film } from "./film.js";
 import { Flicking } from "./flick.js";
 import { Keeps } from "./keeps.js";
-import { Numbers } from "./numbers.js";
-import { part } from "./parts.js";
+import { numbersOf } from "./numbers.js";
+import { part } from "../widgets/parts.js";
 import { Sound } from "./sound.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
 import { Time } from "./time.js";
 import { SHOWS } from "./top.js";
-import { Words } from "./words.js";
+import { wordsOf } from "./words.js";
 import { coalesce, debounce, float32 } from "../data.js";
 import { atEnd, followLook, lifeOf } from "../life.js";
 import { canBeFilmed } from "../motion/filmed.js";
@@ -50,10 +50,10 @@ export class Lab {
     this.flick = texts.lets_go ? new Flicking(this) : undefined; // a page without a server computes no new run
     this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: canTilt(model) ? this.hand() : undefined, flick: this.flick, camera: model.camera, life, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
-    this.words = new Words(texts, ask, () => this.goBack());
+    this.words = wordsOf(texts, ask, () => this.goBack());
     this.answer = new Answer(texts, this.time, () => this.showLevel());
     this.keeps = new Keeps(texts);
-    this.numbers = new Numbers(texts);
+    this.numbers = numbersOf(texts);
     this.controls = new Controls(texts, ask, () => this.anewSpin());
     this.controls.element.append(this.numbers.element);
     this.element = part("div", { class: "lab" }, this.stage.element, this.strip.element, this.words.element,

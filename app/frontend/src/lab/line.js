@@ -1,5 +1,5 @@
 // What every time line has: a button that plays, a plot on which a press sets the time, and a mark of the present time.
-import { drawn, icon, part, say } from "./parts.js";
+import { drawn, icon, part, say } from "../widgets/parts.js";
 
 export const LEFT = 38, RIGHT = 12, FOOT = 22; // px around the plot
 

@@ -3,8 +3,8 @@
 import { thenAt } from "./before.js";
 import { latest, TABLES, TILT, TURNING } from "./curves.js";
 import { pushesIn } from "./flick.js";
-import { Choice, drawn, part, say } from "./parts.js";
-import { Told } from "./told.js";
+import { Choice, drawn, part, say } from "../widgets/parts.js";
+import { toldOf } from "./told.js";
 import { SPEEDS } from "./time.js";
 import { ARROWS, NOTHING, SHOWS, Top } from "./top.js";
 
@@ -49,7 +49,7 @@ export class Stage {
       return label;
     }), part("button", { type: "button", onclick: () => this.alone.firstView() }, texts.view)));
     this.missing = part("p", { class: "missing", role: "status" });
-    this.told = new Told(texts, time, life);
+    this.told = toldOf(texts, time, life);
     this.element = part("section", { class: "stage", "aria-label": texts.stage },
       part("div", { class: "tops" }, ...this.places), this.ring,
       part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),

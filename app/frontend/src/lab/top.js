@@ -1,6 +1,6 @@
 // A top in 3-D for the Lab: it has no bar of its own, and its model is created here.
 import { renderTop3D } from "../three/top3d.js";
-import { part } from "./parts.js";
+import { part } from "../widgets/parts.js";
 import { atEnd } from "../life.js";
 import { modelOf } from "../stand_in.js";
 

@@ -2,7 +2,7 @@
 import { onBoth } from "../colours.js";
 import { digitsOf, ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../lab/curves.js";
 import { levels, marks as marksOf, times } from "../lab/line.js";
-import { drawn, dress, part, say } from "../lab/parts.js";
+import { drawn, dress, part, say } from "../widgets/parts.js";
 import { float32 } from "../data.js";
 import { Arms } from "./arms.js";
 

@@ -2,16 +2,17 @@
 // Python sends the words and the runs; once they are there, the page needs no server.
 import { follow, followLook, lifeOf } from "../life.js";
 import { Curves } from "../lab/curves.js";
-import { part } from "../lab/parts.js";
+import { part } from "../widgets/parts.js";
 import { Time } from "../lab/time.js";
 import { ask, coalesce } from "../data.js";
 import { Bar } from "./bar.js";
 import { Graph } from "./graph.js";
-import { PhoneSide } from "./phone_side.js";
-import { hideOthers, Presenter, wishOf, writes } from "./present.js";
+import { phoneSide } from "./phone_side.js";
+import { hideOthers, Presenter, wishOf } from "./present.js";
 import { Question } from "./question.js";
 import { Stage } from "./stage.js";
 import { style } from "./style.js";
+import { isWriting } from "../widgets/press.js";
 import { save } from "../widgets/saving.js";
 
 const SECTIONS = ["derivation", "published", "teach", "history"];
@@ -39,7 +40,7 @@ class Lesson {
     this.graph = new Graph(texts);
     this.presenting = this.lost = this.back = false;
     this.presenter = new Presenter(texts, (wish) => this.does(wish));
-    this.phone = new PhoneSide(texts, (name, value) => this.ask(name, value), () => this.replay());
+    this.phone = phoneSide(texts, (name, value) => this.ask(name, value), () => this.replay());
     this.more = part("nav", { class: "more", "aria-label": texts.lesson.more });
     this.right = part("div", { class: "right" }, this.question.element, this.graph.element);
     this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element, this.right,
@@ -95,7 +96,7 @@ class Lesson {
   // ---- in front of a class ----
 
   onKey = (event) => {
-    if (this.role === "phone" || !this.frame.getClientRects().length || writes(event)) return;
+    if (this.role === "phone" || !this.frame.getClientRects().length || isWriting(event)) return;
     const wish = wishOf(event, this.presenting);
     if (!wish) return;
     event.preventDefault();
@@ -186,7 +187,7 @@ class Lesson {
 
   showNow() {
     const { model } = this, asked = model.state.step;
-    if (this.role === "phone") this.phone.put(model.state, this.texts);
+    if (this.role === "phone") this.phone.put(model.state);
     if (!model.steps.length || !asked) return;
     if (model.state.presents && model.state.presents !== this.presents) {
       this.presents = model.state.presents;

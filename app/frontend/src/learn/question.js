@@ -1,6 +1,5 @@
 // The question of a step: the possible guesses and, after the answer has been watched, the right one and why.
-import { part, say } from "../lab/parts.js";
-import { typeset } from "../widgets/parts.js";
+import { part, say, typeset } from "../widgets/parts.js";
 
 // How a guess compares with the truth.
 /** @param {any} asks @param {any} truth @param {any} guess */
@@ -119,6 +118,7 @@ export class Question {
     learned.prepend(part("b", {}, `${lesson.learned}: `));
     found.push(part("div", { class: "learned" }, learned));
     if (step.sources.length) found.push(part("details", { class: "small" }, part("summary", {}, `${lesson.read}: ${step.sources.map(([, short]) => short).join(" · ")}`), ...step.sources.map(([, , full]) => html(full, ""))));
+    if (step.opens && lesson.open) found.push(part("a", { class: "link", href: step.opens, target: "_blank" }, lesson.open)); // beside the lesson, which goes on
     return found;
   }
 }

@@ -1,6 +1,6 @@
 // The tops of a step, side by side, with their names below, and what the first one is doing.
 import { latest, TILT } from "../lab/curves.js";
-import { drawn, part, say } from "../lab/parts.js";
+import { drawn, part, say } from "../widgets/parts.js";
 import { Top } from "../lab/top.js";
 import { Ways } from "./ways.js";
 

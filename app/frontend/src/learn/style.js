@@ -45,7 +45,7 @@ fieldset { border: 0; margin: 0; padding: 0; display: grid; gap: 8px; min-width:
 .told { display: grid; gap: 8px; } .told:empty { display: none; } .learned { border-left: 4px solid var(--accent); padding-left: 12px; }
 .equation { overflow-x: auto; overflow-y: hidden; padding: 4px 0 6px; } .equations { display: grid; gap: 4px; } math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math; }
 details > summary { cursor: pointer; min-height: 24px; } details p { margin: 4px 0; }
-.end { display: grid; gap: 8px; justify-items: start; } .end:empty { display: none; } .end ol { margin: 0; padding-left: 20px; display: grid; gap: 4px; }
+a.link { color: inherit; justify-self: start; display: flex; align-items: center; min-height: var(--touch); } .end { display: grid; gap: 8px; justify-items: start; } .end:empty { display: none; } .end ol { margin: 0; padding-left: 20px; display: grid; gap: 4px; }
 `;
 
 const drawings = `

@@ -1,5 +1,5 @@
 // What stands still in Fig. 6 while a motion is pulled: the axes, the region of the motions that roll, and its limits.
-import { local } from "../data.js";
+import { tidy } from "../data.js";
 import { ticks } from "../lab/curves.js";
 import { levels, marks } from "../lab/line.js";
 import { drawn } from "../widgets/parts.js";
@@ -7,9 +7,8 @@ import { drawn } from "../widgets/parts.js";
 
 const CLOSE = 4; // px: tielines are no closer
 
-// As short as it can be written, in the page's language.
 /** @param {number} value */
-export const shortly = (value) => local(String(Number(value.toPrecision(6))));
+export const shortly = (value) => tidy(value, 6);
 
 const at = (x, y) => `${x.toFixed(1)} ${y.toFixed(1)}`;
 

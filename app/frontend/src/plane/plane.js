@@ -1,5 +1,5 @@
 // Fig. 6: which motions roll, the selected one with its bead at the time of the clock, and where it goes if it slips.
-import { coalesce, fill, float32, local, set } from "../data.js";
+import { coalesce, degrees, fill, float32, local, set, tidy } from "../data.js";
 import { spotOf, valueAt } from "../figures/curves.js";
 import { followClock } from "../figures/seeking.js";
 import { followLook, lifeOf, report } from "../life.js";
@@ -24,8 +24,6 @@ function columnsOf(bytes, names) {
   const rows = float32(bytes), count = rows.length / names.length;
   return Object.fromEntries(names.map((name, i) => [name, Float32Array.from({ length: count }, (_, row) => rows[names.length * row + i])]));
 }
-
-const degrees = (tilt) => (tilt * 180) / Math.PI;
 
 export class PlaneFigure {
   /** @param {Rendering<PlaneModel>} rendering */
@@ -113,7 +111,7 @@ export class PlaneFigure {
   // To the ear.
   speak() {
     const { state, model: { texts } } = this, tilt = (value) => local(degrees(value).toFixed(1));
-    const says = { K_J: local(String(Number(state.K_J.toPrecision(4)))), inner: tilt(state.inner), outer: tilt(state.outer), way: texts.ways[nameOf(state.worst)] };
+    const says = { K_J: tidy(state.K_J, 4), inner: tilt(state.inner), outer: tilt(state.outer), way: texts.ways[nameOf(state.worst)] };
     this.drawing.setAttribute("aria-label", `${texts.figure}. ${fill(texts.selected, says)}`);
     this.value("line", state.K_J_range, state.K_J, says.K_J);
     this.value("end", [0, 180], degrees(state.outer), `${says.outer}°`);

@@ -58,8 +58,8 @@ export class Handle {
       this.take();
       this.held = true;
     });
-    element.addEventListener("pointermove", (event) => this.held && this.pull(event));
-    for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) element.addEventListener(end, () => this.letGo());
+    element.onpointermove = (event) => this.held && this.pull(event);
+    element.onpointerup = element.onpointercancel = element.onlostpointercapture = () => this.letGo();
     element.addEventListener("keydown", (event) => {
       const step = { ArrowUp: -KEY_STEP, ArrowLeft: -KEY_STEP, ArrowDown: KEY_STEP, ArrowRight: KEY_STEP }[event.key];
       if (!step) return;

@@ -1,5 +1,7 @@
 // Text at a point in space: HTML over the canvas, so that it is sharp at any zoom.
 import { Vector3 } from "three";
+import { penOf } from "../data.js";
+import { paintWords } from "../paint.js";
 import { part } from "../widgets/parts.js";
 /** @import { Stage } from "./stage.js" */
 
@@ -24,6 +26,17 @@ export class Labels {
     const label = { element, at: new Vector3(), shift: [0, 0], visible: true, margin: -Infinity };
     this.all.push(label);
     return label;
+  }
+
+  // The picture of the stage for print, with the labels: drawn again, so many px wide.
+  /** @param {number} wide @returns {HTMLCanvasElement} */
+  photo(wide) {
+    const { stage, all } = this, still = stage.still(wide), { width, height } = still, scale = width / stage.width;
+    const canvas = part("canvas", { width, height }), ink = penOf(canvas);
+    ink.drawImage(still, 0, 0);
+    ink.scale(scale, scale);
+    for (const { element } of all) paintWords(ink, element, stage.holder.getBoundingClientRect());
+    return canvas;
   }
 
   place() {

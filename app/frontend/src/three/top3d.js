@@ -11,7 +11,6 @@ import { Handle } from "./handle.js";
 import { Impulse } from "./impulse.js";
 import { lifeOf, report } from "../life.js";
 import { Measured } from "./measured.js";
-import { photo } from "./photo.js";
 import { colourOf, wordOf } from "../regimes.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "../style.js";
@@ -41,7 +40,7 @@ class Top {
       inView: () => stage.inView,
       photo: (wide) => {
         this.tick(performance.now(), true); // the screen may not show the present moment yet
-        return photo(stage, this.scene.labels, wide);
+        return this.scene.labels.photo(wide);
       },
     });
     this.player = this.place.player;

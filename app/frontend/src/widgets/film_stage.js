@@ -1,33 +1,26 @@
 // A top that moves once, on its own clock: a button that plays it, the time and the tilt; for a measured film, also the
 // axis as seen on it.
 import { Top } from "../lab/top.js";
-import { icon, part, say } from "../lab/parts.js";
+import { icon, part, say } from "./parts.js";
 import { coalesce, float32 } from "../data.js";
 import { followClock, seek } from "../figures/seeking.js";
-import { follow, lifeOf } from "../life.js";
+import { frame } from "../controls/frame.js";
+import { timed } from "../controls/style.js";
+import { follow } from "../life.js";
 
 const PACE = 1 / 8; // in units of the real top's speed
-const STYLE = `<style>
-  .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene) }
-  .top { position: absolute; inset: 0 }
-  .pill { position: absolute; left: 16px; bottom: 12px; padding: 4px 12px; border-radius: 16px; background: var(--pill);
-    color: var(--scene-ink); font: 600 calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); font-variant-numeric: tabular-nums; pointer-events: none }
-  .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--scene-faint) }
-  button { position: absolute; right: 16px; bottom: 12px; width: 44px; height: 44px; border: 0; border-radius: 50%; cursor: pointer;
-    display: grid; place-items: center; background: var(--scene-ink); color: var(--scene) }
-  button:focus-visible { outline: 3px solid var(--focus); outline-offset: 2px }
-  [hidden] { display: none !important }</style>`;
+const style = `${timed} .frame, .film { height: 100%; } .film { position: relative; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene); }
+.none { position: absolute; inset: auto 16px 16px; color: var(--scene-faint); } .film .round { position: absolute; right: 16px; bottom: 12px; }`;
 
 /** @param {Rendering<FilmStageModel>} rendering */
 export function renderFilmStage(rendering) {
-  const { model, el } = rendering, { texts, clock } = model, life = lifeOf(rendering);
-  el.innerHTML = STYLE;
+  const { model } = rendering, { texts, clock } = model, place = part("div", { class: "film" }), life = frame(rendering, style, place);
   const top = new Top({ texts, life, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
   Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
   const pill = part("div", { class: "pill", hidden: true });
   const none = part("p", { class: "none" }, model.none);
-  const play = part("button", { onclick: () => put({ playing: !top.model.playing }) });
-  el.append(part("div", { class: "film" }, top.element, pill, none, play));
+  const play = part("button", { type: "button", class: "round", onclick: () => put({ playing: !top.model.playing }) });
+  place.append(top.element, pill, none, play);
 
   function put(changes) {
     top.put(changes);

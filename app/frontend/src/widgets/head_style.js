@@ -27,7 +27,7 @@ select { border: 0; background: var(--ground); min-height: calc(32px * var(--typ
   border: 1px solid var(--rule); box-shadow: 0 6px 24px #0004; }
 .menu label { display: flex; gap: 8px; align-items: center; min-height: calc(32px * var(--type, 1)); padding: 0 12px; cursor: pointer; } .menu > button { text-align: left; }
 .menu input { width: 18px; height: 18px; margin: 0; accent-color: var(--accent); }
-@media (max-width: 1150px) { .row { gap: 8px; padding: 0 12px; } .wide { gap: 8px; } .tabs { gap: 0; } .tabs button { padding: 0 8px; } .tabs [aria-selected=true]::after { left: 8px; right: 8px; } .wide button { padding: 0 10px; } .wide .icon { padding: 0; } select { max-width: 170px; } }
+@media (max-width: 1150px) { .row { gap: 8px; padding: 0 12px; } .wide { gap: 8px; } .tabs { gap: 0; } .tabs button { padding: 0 8px; } .tabs [aria-selected=true]::after { left: 8px; right: 8px; } .wide button { padding: 0 10px; } .wide .icon { padding: 0; } }
 @media (max-width: 940px) { .wide { display: none; } .narrow { display: grid; gap: 8px; justify-items: start; } }
 @media (max-width: 700px) {
   .row { padding: 0 4px 0 16px; } .toy { flex: 1; max-width: none; } .row > .grow { display: none; } .icon, .menu button, .menu label { min-height: 44px; } .icon { width: 44px; }

@@ -3,23 +3,24 @@ import { colours } from "../colours.js";
 import { atEnd, lifeOf } from "../life.js";
 import { part } from "./parts.js";
 
-const ABOVE = `position: fixed; margin: auto; max-width: 560px; border-radius: 8px; color: white; background: ${colours.ink}; font: 14px/1.4 var(--family, system-ui, sans-serif); box-shadow: 0 2px 8px #0000004d`;
+const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white", background: colours.ink,
+  font: "14px/1.4 var(--family, system-ui, sans-serif)", boxShadow: "0 2px 8px #0000004d" };
 const FIRST = 500, LONGEST = 8000; // ms between two attempts, each randomly changed by up to half
 
-/** @param {"alert" | "status"} role @param {string} style */
-const notice = (role, style) => part("div", { role, style: `${ABOVE}; ${style}` });
+/** @param {"alert" | "status"} role @param {object} style */
+const notice = (role, style) => part("div", { role, style: { ...ABOVE, ...style } });
 
 // One sentence, until a person closes it or reloads the page.
 /** @param {Pick<Rendering<FailureModel>, "model">} rendering */
 export function renderFailure({ model }) {
-  const words = notice("alert", "inset: auto 8px 8px; z-index: 9998; display: flex; gap: 12px; align-items: center; padding: 8px 8px 8px 16px");
-  const close = part("button", { style: "font: inherit; color: inherit; background: transparent; border: 1px solid; border-radius: 6px; padding: 4px 10px; cursor: pointer",
+  const words = notice("alert", { inset: "auto 8px 8px", zIndex: 9998, display: "flex", gap: "12px", alignItems: "center", padding: "8px 8px 8px 16px" });
+  const close = part("button", { style: { font: "inherit", color: "inherit", background: "transparent", border: "1px solid", borderRadius: "6px", padding: "4px 10px", cursor: "pointer" },
     onclick: () => words.remove() }, model.close);
   model.on("times", () => {
     words.replaceChildren(model.words, close);
     document.body.append(words);
   });
-  const queue = notice("status", "inset: auto 8px 8px; z-index: 9997; padding: 8px 16px");
+  const queue = notice("status", { inset: "auto 8px 8px", zIndex: 9997, padding: "8px 16px" });
   model.on("waits", () => {
     queue.textContent = model.waits;
     if (model.waits) document.body.append(queue);
@@ -35,7 +36,7 @@ const tellBack = () => window.dispatchEvent(new CustomEvent("tippe:back", { canc
 // When a server answers again, the page is reloaded: its address contains what was set.
 /** @param {Pick<Rendering<ConnectionModel>, "model">} rendering */
 export function renderConnection({ model }) {
-  const words = notice("alert", "inset: 8px 8px auto; z-index: 9999; padding: 10px 16px; text-align: center");
+  const words = notice("alert", { inset: "8px 8px auto", zIndex: 9999, padding: "10px 16px", textAlign: "center" });
   let recovering = false;
   async function recover() {
     if (recovering) return;

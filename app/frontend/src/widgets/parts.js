@@ -1,10 +1,13 @@
-// Elements of HTML and SVG, and a group of buttons of which one is chosen.
+// Elements of HTML and SVG, a group of buttons of which one is chosen, and numbers in words.
+import { fill } from "../data.js";
+
 const DRAWING = "http://www.w3.org/2000/svg";
 
 /** Sets attributes, except those that are undefined or false, and listeners. @param {any} element @param {Record<string, any>} attributes @param {any[]} [children] to be appended */
 export function dress(element, attributes, children = []) {
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) element[name] = value;
+    else if (typeof value === "object" && name === "style") Object.assign(element.style, value);
     else if (value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : String(value));
   }
   element.append(...children);
@@ -82,3 +85,22 @@ export class Choice {
     }
   }
 }
+
+// Writes a number as in the language of the page, with a true minus sign.
+/** @param {number} value @param {number} digits @param {string} decimal */
+export function written(value, digits, decimal) {
+  const text = Math.abs(value).toFixed(digits);
+  return `${value < 0 && Number(text) ? "−" : ""}${text.replace(".", decimal)}`;
+}
+
+// Reads a number that a person typed; NaN if it is none.
+/** @param {string} text */
+export function read(text) {
+  const plain = text.trim().replace(",", ".").replace("−", "-");
+  return plain === "" ? NaN : Number(plain);
+}
+
+// Puts numbers into a text, written as in the language of the page.
+/** @param {Record<string, any>} texts @param {string} text @param {Record<string, any>} values */
+export const say = ({ decimal }, text, values) =>
+  fill(text, Object.fromEntries(Object.entries(values).map(([name, value]) => [name, Array.isArray(value) ? written(value[0], value[1], decimal) : value])));
