@@ -98,7 +98,7 @@ const small = `
   .lesson[data-picture=arms]:not(.present) .stage { display: none; }
   .lesson[data-picture=arms]:not(.present) .bar .round { top: calc(-4px - var(--stage)); }
   .picture { order: 6; flex: none; } [data-picture=arms] .picture { order: 1; position: sticky; top: var(--head); z-index: 2; background: var(--ground); } [data-picture=arms] .picture .plot { height: calc(var(--stage) - 28px); } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 3; font-size: 20px; } .side > * { order: 4; } .side > .dock { order: 8; } .more { order: 7; }
-  .side :is(input, button) { scroll-margin: calc(var(--head) + var(--stage) + 16px) 0 84px; }
+  .side :is(input, button, a) { scroll-margin: calc(var(--head) + var(--stage) + 16px) 0 84px; }
   .side > .dock { position: sticky; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }
   .caption { bottom: auto; top: 4px; font-size: var(--t-s); padding: 0 4px; line-height: 1.2; } .cover { top: 52%; font-size: var(--t-s); } .ways { top: 6px; left: 6px; right: 6px; display: flex; justify-content: space-between; } .ways figure { width: 84px; } .ways svg { width: 60px; height: 60px; } .ways figcaption { line-height: 1; }
 }
