@@ -2,6 +2,7 @@
 not use the constants."""
 
 import re
+from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
@@ -14,6 +15,8 @@ from app.model.explorer import Explorer
 from app.model.lesson import lesson, runs
 from app.model.lesson.parts import Choice
 from app.model.setup import start_of
+from app.state.url_state import explorer_of
+from app.tabs.learn.lesson import opened
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, SmoothedCoulomb, Top, pole_constants, slide
 
@@ -38,6 +41,16 @@ def test_six_steps_the_own_toy_and_five_for_theorists():
     assert [step.name for step in lesson.LESSON] == ["flips", "way", "height", "tables", "arms", "proof", "yours"]
     assert [step.name for step in lesson.THEORY] == ["creep", "turning", "ties", "jump", "slip"]
     assert {*lesson.BEFORE.values()} <= {*lesson.NAMES} and not {*lesson.BEFORE} & {*lesson.NAMES}
+
+
+@pytest.mark.parametrize("name", ["flips", "way", "height", "tables", "arms"])
+def test_a_step_opens_its_motion_in_the_lab(name):
+    tops = lesson.OF_NAME[name].tops
+    explorer, wrong = explorer_of(dict(parse_qsl(opened(tops)[1:])))
+    start = runs.on_table(tops[0]).start
+    assert not wrong and explorer.table in (*tops, "three") and (explorer.table == "three") == (len(tops) > 1)
+    assert (explorer.spin, explorer.tilt, explorer.mu) == (start.spin, start.tilt, start.mu)
+    assert explorer.shape == start.shape and explorer.law == start.law
 
 
 WORDED = TOPS | {"G at the pole": Top(-1.0, 0.731, 0.276), "far from O": Top(0.9, 0.919, 0.981)}

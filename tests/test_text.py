@@ -129,9 +129,10 @@ def modules_of(script):
 def components():
     """(name, script) in the index of the bundle."""
     index = (APP / "frontend/src/index.js").read_text(encoding="utf-8")
-    scripts = dict(re.findall(r'import { (\w+) } from "\./([\w/]+\.js)"', index))
-    shown = re.findall(r"(\w+): { render: (\w+)", index)
-    return [(name, APP / "frontend/src" / scripts[render]) for name, render in shown]
+    imports = re.findall(r'import { (.+) } from "\./([\w/]+\.js)"', index)
+    shown = [(name, APP / "frontend/src" / file) for names, file in imports for name in re.findall(r" as (\w+)", names)]
+    assert len(shown) > 30
+    return shown
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -204,7 +204,7 @@ def spoken_words(view, words, state):
 def lesson(scene):
     """The lesson in the language of the page, without what is for teachers."""
     texts = LessonView.says()
-    texts |= {"lesson": texts["lesson"] | {"sections": {}}}
+    texts |= {"lesson": texts["lesson"] | {"sections": {}, "open": ""}}
     steps = [said(step, scene) for step in LESSON]
     return {"texts": texts, "steps": steps, "worksheet": worksheet(scene), "asked": []}
 

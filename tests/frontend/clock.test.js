@@ -12,10 +12,11 @@ function topOn(clock, { inView = true, wide = 1, rows = [0, 1, 2, 4], ...more } 
     clock, frames: motion(rows.map((t) => ({ t }))), time: 0, playing: false, speed: 0.5, seconds: 0.02,
     on: (name, run) => (listeners[name] = run), ...more,
   };
-  const place = new Place({ model, picture: { clientWidth: wide }, changed() {}, inView: () => inView, photo: (pixels) => `${clock} ${pixels}`, report: {} });
+  const life = new AbortController();
+  const place = new Place({ model, picture: { clientWidth: wide }, life: life.signal, changed() {}, inView: () => inView, photo: (pixels) => `${clock} ${pixels}`, report: () => ({}) });
   place.take();
   place.begin();
-  return { place, model, player: place.player, told: (name, value) => listeners[name]((model[name] = value)) };
+  return { place, model, player: place.player, leave: () => life.abort(), told: (name, value) => listeners[name]((model[name] = value)) };
 }
 
 // Runs a test with this many tops on one clock, and removes them afterwards.
@@ -23,7 +24,7 @@ function together(tops, run) {
   try {
     run(...tops);
   } finally {
-    for (const { place } of tops) place.leave();
+    for (const { leave } of tops) leave();
   }
 }
 
@@ -37,7 +38,7 @@ test("tops of one clock play, stop and move together; others do not", () =>
     assert.deepEqual([one, two, other].map(({ player }) => player.t), [2, 2, 0]);
     one.place.take(true); // a new motion that starts from its beginning affects only this top
     assert.deepEqual([one, two].map(({ player }) => player.t), [0, 2]);
-    one.place.leave();
+    one.leave();
     assert.equal(timeOf("a"), 2);
     two.player.step(-1);
     assert.deepEqual([one, two].map(({ player }) => player.t), [0, 1]);
@@ -50,7 +51,7 @@ test("a top that joins later takes the time of the others", () =>
     assert.deepEqual([first.player.t, first.player.playing], [1, true]);
     const second = topOn("a");
     assert.deepEqual([second.player.t, second.model.playing], [1, true]);
-    second.place.leave();
+    second.leave();
   }));
 
 test("the first visible top that has a motion moves the time, at the model's speed", () =>

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { nearestRow, spotInTurn, spotOf, timeAtPoint, timeAtTilt, valueAt } from "../../app/frontend/src/figures/curves.js";
 import { rowBefore } from "../../app/frontend/src/data.js";
 import { beadAt } from "../../app/frontend/src/figures/run.js";
-import { sectionAt } from "../../app/frontend/src/figures/sections.js";
+import { turned } from "../../app/frontend/src/learn/arms.js";
 import { near } from "./helping.js";
 
 const same = { compute: (value) => value, invert: (px) => px };
@@ -61,17 +61,12 @@ test("the bead is in the well of its time, and in none between two", () => {
   assert.deepEqual(beadAt(path, 9), { which: 1, theta: 30, V: 2, E: 1 });
 });
 
-test("a section is upright at zero tilt and horizontal at 90 degrees, and touches the table in both", () => {
-  const circle = Array.from({ length: 360 }, (_, k) => (k * Math.PI) / 180);
-  const outline = { across: circle.map(Math.sin), along: circle.map(Math.cos) };
-  const at = (theta) => [Math.sin(theta), Math.cos(theta)];
-  const tilted = (theta, [s, c] = at(theta)) => sectionAt({ axis: [-s, c], G: [0.1 * s, 1 - 0.1 * c], foot: [0, 0] }, outline);
+test("the section of a sphere stands on the contact however it leans, and its axis points where it leans", () => {
+  const circle = Array.from({ length: 101 }, (_, i) => (2 * Math.PI * i) / 100);
   for (const theta of [0, 0.7, Math.PI / 2, 3]) {
-    const { y, points } = tilted(theta), [O, G] = points;
-    near(Math.min(...y), 0, 1e-3);
-    near(O, [0, 1]);
-    near(Math.hypot(G[0] - O[0], G[1] - O[1]), 0.1);
+    const points = circle.map((angle) => turned([Math.sin(angle), Math.cos(angle)], [-Math.sin(theta), Math.cos(theta)]));
+    near(Math.min(...points.map(([, y]) => y)), 0, 1e-3);
+    for (const [x, y] of points) near(Math.hypot(x, y - 1), 1);
   }
-  near(tilted(0).points[1], [0, 0.9]);
-  near(tilted(Math.PI / 2).points[3], [-1.9, 1]);
+  near(turned([0, 1.9], [-1, 0]), [-1.9, 1]);
 });

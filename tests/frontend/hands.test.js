@@ -2,10 +2,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { awayFromTieline, gripAt, REACH } from "../../app/frontend/src/plane/grips.js";
 import { isFollowed } from "../../app/frontend/src/figures/seeking.js";
-import { modelOf } from "../../app/frontend/src/letter.js";
+import { modelOf } from "../../app/frontend/src/stand_in.js";
 import { inLook, stepOf } from "../../app/frontend/src/widgets/address.js";
 import { figures, rowAt, said } from "../../app/frontend/src/widgets/lines.js";
-import { beside } from "../../app/frontend/src/widgets/tour.js";
+import { placeBeside } from "../../app/frontend/src/figures/readout.js";
 import { markOf } from "../../app/frontend/src/widgets/phone.js";
 
 // 100 px a radian, 10 px a unit of K_J
@@ -79,12 +79,12 @@ test("the model of a letter calls its listeners when a value changes", () => {
 
 test("the words of the tour are beside their place if there is room, and always inside the window", () => {
   const page = { wide: 1000, high: 800 }, words = { wide: 300, high: 200 };
-  const box = (left, top, right, bottom) => ({ left, top, right, bottom });
-  assert.deepEqual(beside(box(0, 100, 400, 700), words, page), { left: 414, top: 100 });
-  assert.deepEqual(beside(box(600, 100, 990, 700), words, page), { left: 286, top: 100 });
-  assert.deepEqual(beside(box(10, 0, 990, 300), words, page), { left: 14, top: 314 });
-  assert.deepEqual(beside(box(10, 500, 990, 790), words, page), { left: 14, top: 286 });
-  const { left, top } = beside(box(10, 10, 990, 790), words, page); // it fills the window
+  const beside = (left, top, right, bottom) => placeBeside([(left + right) / 2, (top + bottom) / 2], words, page, [{ left, top, right, bottom }]);
+  assert.equal(beside(0, 100, 400, 700).left, 414);
+  assert.equal(beside(600, 100, 990, 700).left, 286);
+  assert.equal(beside(10, 0, 990, 300).top, 314);
+  assert.equal(beside(10, 500, 990, 790).top, 286);
+  const { left, top } = beside(10, 10, 990, 790); // it fills the window
   assert.ok(left >= 0 && left + words.wide <= page.wide && top >= 0 && top + words.high <= page.high);
 });
 

@@ -6,7 +6,7 @@ import { Before } from "../../app/frontend/src/lab/before.js";
 import { keptAt } from "../../app/frontend/src/lab/keeps.js";
 import { strengthOf } from "../../app/frontend/src/lab/launch.js";
 import { Curves, latest, placed, tempo, ticks, TILT } from "../../app/frontend/src/lab/curves.js";
-import { read, say, written } from "../../app/frontend/src/lab/parts.js";
+import { read, say, written } from "../../app/frontend/src/widgets/parts.js";
 import { near } from "./helping.js";
 
 const curves = (...rows) => new Curves(new Float32Array(rows.flatMap(([t, tilt]) => [t, tilt, 0, 0, 0, 0, 0, 0])).buffer);

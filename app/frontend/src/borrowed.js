@@ -25,9 +25,7 @@ export const setCursor = (fig, cursor) => (eventsOf(fig).style.cursor = cursor);
 // 5. If a pointer rests for 300 ms before it moves, Bokeh takes that for a press and does not drag. No figure here uses
 // presses, so a press never counts as one. No issue that we found.
 /** @param {Figure} fig */
-export function pressNever(fig) {
-  viewOf(fig).canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1;
-}
+export const pressNever = (fig) => void (viewOf(fig).canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1);
 
 // 6. three.js uses the colour space of the screen, not that of a texture, only for the render target of a headset.
 // https://github.com/mrdoob/three.js/issues/29429

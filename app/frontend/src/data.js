@@ -1,3 +1,5 @@
+import { atEnd } from "./life.js";
+
 // Arrays are sent as bytes and arrive as an ArrayBuffer, so nothing passes through JSON.
 /** @param {Bytes} [bytes] */
 export function float32(bytes) {
@@ -31,10 +33,13 @@ export const valued = (text) => JSON.parse(text, (_, value) => (typeof value?.ba
 
 // The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a round number for a scale.
 /** @param {number} x */
-export function niceAbove(x) {
-  if (!(x > 0) || !isFinite(x)) return 1;
-  const decade = 10 ** Math.floor(Math.log10(x));
-  return decade * ([1, 1.5, 2, 3, 4, 5, 6, 8].find((digits) => digits * decade >= x * (1 - 1e-9)) ?? 10);
+export const niceAbove = (x) => (x > 0 && isFinite(x) ? stepOf(x, [1, 1.5, 2, 3, 4, 5, 6, 8]) : 1);
+
+// The smallest round number that is not below another.
+/** @param {number} rough @param {number[]} digits that it may begin with */
+export function stepOf(rough, digits = [1, 2, 5]) {
+  const decade = 10 ** Math.floor(Math.log10(rough));
+  return decade * (digits.find((digit) => digit * decade >= rough * (1 - 1e-9)) ?? 10);
 }
 
 // Puts numbers into a text of browser.toml.
@@ -56,8 +61,8 @@ export function set(model, name, value) {
 export const ask = (model, wish) => set(model, "asked", wish);
 
 // Runs once before the next paint, however often it was called before then.
-/** @param {() => void} run @returns {Later} */
-export function coalesce(run) {
+/** @param {() => void} run @param {AbortSignal} [life] @returns {Later} */
+export function coalesce(run, life) {
   let asked = 0;
   const later = () => {
     asked ||= requestAnimationFrame(() => {
@@ -69,19 +74,19 @@ export function coalesce(run) {
     cancelAnimationFrame(asked);
     asked = 0;
   };
+  atEnd(life, later.cancel);
   return later;
 }
 
 // Runs once nothing has called it for so long.
-/** @param {() => void} run @param {number} ms @returns {Later} */
-export function debounce(run, ms) {
+/** @param {() => void} run @param {number} ms @param {AbortSignal} [life] */
+export function debounce(run, ms, life) {
   let asked = 0;
-  const later = () => {
+  atEnd(life, () => clearTimeout(asked));
+  return () => {
     clearTimeout(asked);
-    asked = window.setTimeout(run, ms);
+    asked = setTimeout(run, ms);
   };
-  later.cancel = () => clearTimeout(asked);
-  return later;
 }
 
 // The 2-D context of a canvas. It is null only if the canvas is used by WebGL.
@@ -99,8 +104,9 @@ export function local(text, language = typeof document === "undefined" ? "" : (d
   return text.replaceAll("-", "−").replace(".", points[language]);
 }
 
-// With three significant digits.
+// With so many significant digits, as short as it can be written.
 /** @param {number} number */
-export function tidy(number) {
-  return local(String(Number(number.toPrecision(3))));
-}
+export const tidy = (number, digits = 3) => local(String(Number(number.toPrecision(digits))));
+
+/** @param {number} angle in rad */
+export const degrees = (angle) => (180 / Math.PI) * angle;

@@ -1,24 +1,10 @@
 // Components in a page that works without a server. It contains the values of their models.
 import { valued } from "./data.js";
+import { modelOf } from "./stand_in.js";
 import { renderPlane } from "./plane/plane.js";
 import { renderSurface3D } from "./three/surface3d.js";
 
 const pictures = { PlaneView: renderPlane, Surface3D: renderSurface3D };
-
-// A stand-in for the model that Panel passes to a component: values, with listeners that run when one is set.
-/** @param {Record<string, any>} values */
-export function modelOf(values) {
-  const asked = {};
-  return new Proxy(values, {
-    get: (_, /** @type {string} */ name) => (name === "on" ? (event, run) => (asked[event] ??= []).push(run) : values[name]),
-    set: (_, /** @type {string} */ name, value) => {
-      const news = values[name] !== value;
-      values[name] = value;
-      if (news) asked[name]?.forEach((run) => run());
-      return true;
-    },
-  });
-}
 
 // Draws a component from these values, in place of what is there.
 /** @param {string} id of the element @param {Record<string, any>} values @param {(rendering: any) => void} render */

@@ -1,10 +1,11 @@
 // A page without a server: the Lab of one toy at the starts whose runs are stored in it, and the lesson. app/page/site.py
 // writes it. What a hand asks for between two stored values goes to the nearest, and the control says so.
 import { bytesOf, fill, valued } from "./data.js";
+import { nearestRow } from "./figures/curves.js";
 import { inOneLanguage } from "./first.js";
 import { TABLES } from "./lab/curves.js";
 import { renderLab } from "./lab/lab.js";
-import { written } from "./lab/parts.js";
+import { written } from "./widgets/parts.js";
 import { renderLesson } from "./learn/lesson.js";
 import { drawIn } from "./letter.js";
 import { numbersIn } from "./stand_in.js";
@@ -20,8 +21,7 @@ const read = async (base64) => valued(await unzipped(base64).text());
 
 // The stored value next to one that was asked for.
 /** @param {number[]} values @param {number} wanted */
-export const nearest = (values, wanted) =>
-  values.reduce((best, value) => (Math.abs(value - wanted) < Math.abs(best - wanted) ? value : best));
+const nearest = (values, wanted) => values[nearestRow(values, wanted)];
 
 class Site {
   /** @param {any} stored */
@@ -58,9 +58,7 @@ class Site {
   }
 
   /** @param {string} id @returns {any} */
-  element(id) {
-    return document.getElementById(id);
-  }
+  element(id) { return document.getElementById(id); }
 
   // Shows the room; answered: how many requests of the head were.
   /** @param {number} answered */

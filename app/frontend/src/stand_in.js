@@ -1,5 +1,20 @@
-// A stand-in for a model that has not arrived yet, and the file from which its numbers are read.
+// Stand-ins for models: where there is no server, and for one that has not arrived yet; and the file with its numbers.
 import { float32 } from "./data.js";
+
+// A stand-in for the model that Panel passes to a component: values, with listeners that run when one is set.
+/** @param {Record<string, any>} values @returns {any} */
+export function modelOf(values) {
+  const asked = {};
+  return new Proxy(values, {
+    get: (_, /** @type {string} */ name) => (name === "on" ? (event, run) => (asked[event] ??= []).push(run) : values[name]),
+    set: (_, /** @type {string} */ name, value) => {
+      const news = values[name] !== value;
+      values[name] = value;
+      if (news) asked[name]?.forEach((run) => run());
+      return true;
+    },
+  });
+}
 
 // Behaves like a model; become() puts the session's own model behind it.
 /** @param {LabModel} values */

@@ -1,5 +1,6 @@
 // One style sheet for both pictures. Text and lines use the colour of the page, so a dark page needs no second sheet.
 import { colours } from "./colours.js";
+import { part } from "./widgets/parts.js";
 
 export const style = `
 :host { --line: color-mix(in srgb, currentColor 18%, transparent); }
@@ -16,7 +17,7 @@ export const style = `
   text-shadow: 0 0 3px var(--halo), 0 0 3px var(--halo), 0 0 5px var(--halo); }
 .labels .tick { font-size: calc(11px * var(--type, 1)); font-variant-numeric: tabular-nums; color: var(--scene-faint); }
 .labels .axis { font: calc(15px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
-.labels .axis sub, .labels .axis sup, .readout sub, .readout sup { font-size: 70%; line-height: 0; }
+.labels .axis :is(sub, sup) { font-size: 70%; line-height: 0; }
 .labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo), 0 0 4px var(--halo); }
 .labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent);
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
@@ -49,9 +50,6 @@ export const style = `
 .bar .shows label:has(input:focus-visible) { outline: 2px solid var(--focus); outline-offset: 2px; }
 .bar .swatch { width: 11px; height: 11px; border-radius: 3px; background: var(--swatch); }
 .bar .shows label:not(:has(input:checked)) .swatch { background: transparent; box-shadow: inset 0 0 0 2px var(--swatch); }
-.readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: var(--pill); color: var(--scene-ink);
-  box-shadow: 0 1px 6px #0003; pointer-events: none; white-space: nowrap; font-size: calc(12px * var(--type, 1)); font-variant-numeric: tabular-nums; }
-.readout i { font-family: "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; font-size: calc(14px * var(--type, 1)); }
 .key { flex: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 6px 2px 0; font-size: calc(12px * var(--type, 1)); color: var(--faint); }
 .key span::before { content: ""; display: inline-block; width: 16px; height: 3px; margin: 0 6px 3px 0; vertical-align: middle;
   background: var(--swatch); }
@@ -67,23 +65,9 @@ export const style = `
 // Creates what both components need: a style sheet, and a box for the picture.
 /** @param {HTMLElement} el */
 export function frameIn(el) {
-  const sheet = document.createElement("style");
-  sheet.textContent = style;
-  const root = document.createElement("div");
-  root.className = "tippe";
-  const picture = document.createElement("div");
-  picture.className = "picture";
-  root.append(picture);
-  el.replaceChildren(sheet, root);
+  const picture = part("div", { class: "picture" }), root = part("div", { class: "tippe" }, picture);
+  el.replaceChildren(part("style", {}, style), root);
   return { root, picture };
-}
-
-/** @param {HTMLElement} picture @param {string} className */
-export function addText(picture, className) {
-  const text = document.createElement("div");
-  text.className = className;
-  picture.append(text);
-  return text;
 }
 
 export const guideStyle = `

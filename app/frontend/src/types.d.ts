@@ -29,7 +29,7 @@ interface Model {
 interface Rendering<M extends Model> {
   model: M;
   el: HTMLElement;
-  view: { tippe?: { dispose(): void; hold?(held: boolean): void; look?(): void } };
+  view: { tippe?: { dispose(): void; life: AbortSignal; hold?(held: boolean): void; look?(): void } };
 }
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;

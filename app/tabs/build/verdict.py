@@ -115,13 +115,12 @@ def strip_of(ends, why=""):
     at = f"{100 * (SPIN - low) / (high - low):.2f}%"
     mark = f'<i class="mark" style="left: {at}"></i>'
     parts = ends.segments if ends else ()
-    stretches = "; ".join(
-        say("build.verdict.stretch", low=each.least, high=each.most, word=each.word) for each in parts
-    )
+    stretches = [say("build.verdict.stretch", low=each.least, high=each.most, word=each.word) for each in parts]
     drawn = "".join(
-        f'<span class="end {each.code}" style="{_colour(each.code)}'
+        f'<span class="end {each.code}" title="{html.escape(spelled(stretch))}" style="{_colour(each.code)}'
         f'left: {100 * (each.least - low) / (high - low):.2f}%; '
-        f'right: {100 * (high - each.most) / (high - low):.2f}%"></span>' for each in parts
+        f'right: {100 * (high - each.most) / (high - low):.2f}%"></span>'
+        for each, stretch in zip(parts, stretches, strict=True)
     )  # fmt: skip
     kinds = {each.code: html.escape(spelled(each.word)) for each in parts}
     key = "".join(
@@ -130,7 +129,7 @@ def strip_of(ends, why=""):
     axis = f'<span>{low:.0f}</span><b style="left: {at}">{written(SPIN, ".1f")}</b><span>{high:.0f}</span>'
     return (
         f'<div class="strip"><div>{html.escape(spelled(says))}</div><div class="ends" role="img" '
-        f'aria-label="{html.escape(spelled(stretches)) or waits}">{drawn}{mark}</div>'
+        f'aria-label="{html.escape(spelled("; ".join(stretches))) or waits}">{drawn}{mark}</div>'
         f'<div class="under">{axis}</div><div class="kinds">{key or waits}</div></div>'
     )
 

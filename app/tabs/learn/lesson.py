@@ -16,7 +16,9 @@ from app.model.lesson.runs import named, nutations, own
 from app.model.lesson.six import UNSURE
 from app.model.roll.levers import levers
 from app.model.run import TableMotion
+from app.model.setup import TABLES
 from app.model.story import story
+from app.state.names import link
 from app.text import listed, say, told
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
@@ -46,7 +48,7 @@ class LessonView(Bundled):
     @classmethod
     def says(cls, language=None):
         own = listed("learn.view", language) | {"sections": listed("learn.sections", language)}
-        own |= {"room": listed("teach.room", language)}
+        own |= {"room": listed("teach.room", language), "open": say("published.page.open", language)}
         drawn = listed("learn.pictures", language)
         return super().says(language) | listed("lab_view.view", language) | {"lesson": own, "drawn": drawn}
 
@@ -113,8 +115,15 @@ def _said(step, plan, answer):
         "stages": {name: [[t, short] for t, *_, short in story(motion).stages] for name, motion in motions.items()
                    if not step.later},
         "picture": step.picture, "graph": _graph(answer.picture), "tex": list(step.tex), "refused": "",
+        "opens": opened(step.tops),
         "sources": [[name, *listed(f"sources.{name}").values()] for name in step.sources],
     }  # fmt: skip
+
+
+def opened(tops):
+    """The link that opens the runs of a step in the Lab, "" if they are not those of the arrival's toy on its tables: a
+    link has the start of the arrival if it says no more."""
+    return link(tab="lab", table=tops[0] if len(tops) == 1 else "three") if tops and {*tops} <= {*TABLES} else ""
 
 
 def _motion(name, plan) -> TableMotion:

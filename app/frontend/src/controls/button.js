@@ -1,5 +1,6 @@
 // Buttons.
-import { follow, frame } from "./frame.js";
+import { follow } from "../life.js";
+import { frame } from "./frame.js";
 import { part } from "../widgets/parts.js";
 
 const pressed = `button[aria-disabled=true] { opacity: .45; cursor: default; } button[aria-busy=true] { opacity: .6; cursor: progress; }

@@ -1,5 +1,6 @@
 // One of several, by buttons.
-import { follow, frame } from "./frame.js";
+import { follow } from "../life.js";
+import { frame } from "./frame.js";
 import { segments } from "./style.js";
 import { Choice, part } from "../widgets/parts.js";
 
@@ -7,17 +8,11 @@ const style = `${segments} .choice { display: flex; flex-wrap: wrap; align-items
 
 /** @param {Rendering<ChoiceModel>} rendering */
 export function renderChoice(rendering) {
-  const { model } = rendering, place = part("div", { class: "choice" });
-  frame(rendering, style, place);
-  /** @type {Choice} */
-  let choice;
-  const show = () => choice.show(model.value);
-  follow(model, ["options"], () => {
-    choice = new Choice({ role: "radio", label: model.label, options: Object.entries(model.options).map(([word, value]) => [value, word, ""]),
-      choose: (value) => (model.value = value) });
-    choice.element.className = "seg";
-    place.replaceChildren(...(model.label ? [part("b", { "aria-hidden": "true" }, model.label)] : []), choice.element);
-    show();
+  const { model } = rendering, { label } = model;
+  const choice = new Choice({ role: "radio", label, kind: "seg", choose: (value) => (model.value = value) });
+  frame(rendering, style, part("div", { class: "choice" }, ...(label ? [part("b", { "aria-hidden": "true" }, label)] : []), choice.element));
+  follow(model, ["options", "value"], () => {
+    choice.offer(Object.entries(model.options).map(([word, value]) => [value, word]));
+    choice.show(model.value);
   });
-  model.on("value", show);
 }

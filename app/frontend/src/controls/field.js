@@ -1,40 +1,30 @@
 // An entry for a short text.
 import { fill } from "../data.js";
-import { follow, frame } from "./frame.js";
+import { follow } from "../life.js";
+import { entry } from "./entry.js";
+import { frame } from "./frame.js";
 import { numbers } from "./style.js";
 import { explain } from "./wrong.js";
 import { part } from "../widgets/parts.js";
 
 let made = 0; // for the ids of labels
-const entry = `${numbers} .field { display: inline-flex; flex-wrap: wrap; align-items: baseline; gap: 0 8px; } .field .num { height: max(28px, var(--touch) - 4px); } @media (max-width: 700px) { .field .num { height: 44px; } }
+const style = `${numbers} .field { display: inline-flex; flex-wrap: wrap; align-items: baseline; gap: 0 8px; } .field .num { height: max(28px, var(--touch) - 4px); } @media (max-width: 700px) { .field .num { height: 44px; } }
 .field .unit { margin: 0; min-width: 0; } .unit:empty { display: none; } .wrong { flex: 1 0 100%; max-width: 60ch; } i, sub { font-family: Georgia, serif; } sub { font-size: .75em; line-height: 0; }
 .num::placeholder { color: var(--ink-2); opacity: 1; } .field label { color: var(--ink-2); }`;
 
 /** @param {Rendering<FieldModel>} rendering */
 export function renderField(rendering) {
   const { model } = rendering, { texts } = model, id = `field-${(made += 1)}`;
-  let isTyping = false;
   const send = (text) => {
-    isTyping = false;
     number.value = text;
     if (text !== model.value) model.value = text;
   };
-  const commit = () => isTyping && send(number.value);
-  const number = part("input", {
-    type: "text", class: "num", id, inputmode: "decimal", autocomplete: "off", spellcheck: "false", maxlength: 60, "aria-describedby": `${id}-wrong`,
-    oninput: () => (isTyping = true), onchange: commit, onblur: commit,
-    onkeydown: ({ key }) => {
-      if (key === "Enter") commit();
-      if (key !== "Escape" || !isTyping) return;
-      isTyping = false;
-      number.value = model.value;
-    },
-  });
+  const number = entry({ id, "aria-describedby": `${id}-wrong` }, send, () => (number.value = model.value));
   const label = part("label", { for: id }), unit = part("span", { class: "unit" }), wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
   const place = part("div", { class: "field" }, label, part("span", {}, number, " ", unit), wrong);
-  frame(rendering, entry, place);
+  frame(rendering, style, place);
   follow(model, ["value", "label", "shows", "unit", "placeholder", "size", "wrong"], () => {
-    if (!isTyping && number.value !== model.value) number.value = model.value;
+    if (!number.isTyping && number.value !== model.value) number.value = model.value;
     label.innerHTML = model.shows;
     label.hidden = !model.shows;
     number.setAttribute("aria-label", model.label);

@@ -1,5 +1,6 @@
 // A button that opens a file of text, and a fold.
-import { follow, frame } from "./frame.js";
+import { follow } from "../life.js";
+import { frame } from "./frame.js";
 import { part } from "../widgets/parts.js";
 
 const opens = `label { display: inline-flex; align-items: center; cursor: pointer; border-radius: 6px; min-height: 36px; } label:hover { background: color-mix(in srgb, var(--ink) 7%, transparent); }

@@ -1,14 +1,13 @@
 // A group of number controls and choices, in the order in which Python lists them. One request at a time is on its way.
-import { followLook } from "./look.js";
+import { atEnd, followLook, lifeOf } from "../life.js";
 import { Control } from "./number.js";
 import { Picks } from "./picks.js";
 import { dock, forFingers, numbers, segments, shared } from "./style.js";
 import { ask } from "../data.js";
 import { Asking } from "../lab/asking.js";
-import { Choice, part } from "../lab/parts.js";
+import { Choice, part } from "../widgets/parts.js";
 
 const style = `${shared}${numbers}${segments}
-.frame, .frame[data-look=dark] { --ground: var(--card); }
 .group { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 220px), 1fr)); gap: 8px 24px; align-items: start; }
 .group :is(.titled, .choice), .group > .small { grid-column: 1 / -1; } .group > .dock { display: contents; }
 .group .choice { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 8px; }
@@ -28,7 +27,8 @@ i, sub, sup { font-family: Georgia, serif; } sub, sup { font-size: .75em; line-h
 
 class Group {
   /** @param {Rendering<NumberControlsModel>} rendering */
-  constructor({ model, el }) {
+  constructor(rendering) {
+    const { model, el } = rendering, life = lifeOf(rendering);
     this.model = model;
     this.around = [/** @type {ShadowRoot} */ (el.getRootNode()).host, el];
     this.last = ""; // the input that was asked for last
@@ -37,9 +37,15 @@ class Group {
     this.frame = part("div", { class: "frame" }, this.place);
     el.replaceChildren(part("style", {}, style), this.frame);
     this.asking.count = JSON.parse(model.state).answered ?? 0;
-    this.leaves = followLook(this.frame);
+    followLook(this.frame, life);
+    atEnd(life, () => clearTimeout(this.asking.later));
     this.build();
     this.show();
+    model.on("state", this.show);
+    model.on("parts", () => {
+      this.build();
+      queueMicrotask(this.show); // the state of these parts comes after them, in the same message
+    });
   }
 
   ask = (name, wish, typed = false) => {
@@ -82,18 +88,15 @@ class Group {
   }
 
   buttons({ name, label, options }) {
-    const choice = new Choice({ role: "radio", label, options, choose: (wish) => {
+    const choice = new Choice({ role: "radio", label, kind: "seg", options, choose: (wish) => {
       choice.show(wish);
       this.ask(name, wish);
     } });
-    choice.element.className = "seg";
     this.choices.set(name, choice);
     return choice.element;
   }
 
-  words() {
-    return part("p", { class: "small" });
-  }
+  words() { return part("p", { class: "small" }); }
 
   number({ name, said, lines, marks }) {
     const control = new Control(name, said, this.model.texts, this.ask);
@@ -120,22 +123,7 @@ class Group {
 
   // Whether a hand has moved it since the last answer.
   isAhead = (name) => this.last === name && this.asking.isAhead;
-
-  leave() {
-    clearTimeout(this.asking.later);
-    this.leaves();
-  }
 }
 
 /** @param {Rendering<NumberControlsModel>} rendering */
-export function renderNumberControls({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
-  const group = new Group({ model, el, view });
-  model.on("state", group.show);
-  model.on("parts", () => {
-    group.build();
-    queueMicrotask(group.show); // the state of these parts comes after them, in the same message
-  });
-  view.tippe = { dispose: () => group.leave() };
-  model.on("remove", () => group.leave());
-}
+export const renderNumberControls = (rendering) => void new Group(rendering);

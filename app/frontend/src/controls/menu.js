@@ -1,5 +1,6 @@
 // A menu, and checks.
-import { follow, frame } from "./frame.js";
+import { follow } from "../life.js";
+import { frame } from "./frame.js";
 import { part } from "../widgets/parts.js";
 
 let made = 0; // for the ids of labels

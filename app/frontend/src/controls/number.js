@@ -1,7 +1,8 @@
 // The number control: a slider, a field for a number, and below them an error message, marks and remarks, or how runs end.
-import { fill, local } from "../data.js";
+import { fill, tidy } from "../data.js";
+import { entry } from "./entry.js";
 import { explain } from "./wrong.js";
-import { part, read, say, written } from "../lab/parts.js";
+import { part, read, say, written } from "../widgets/parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, WIDE = 5.6, APART = 16; // px: least width of the strip of ends, a letter below it, a gap between words
@@ -41,16 +42,7 @@ export class Control {
       this.put(Number(this.slider.value));
       ask(name, Number(this.slider.value));
     } });
-    this.number = part("input", {
-      type: "text", class: "num", inputmode: "decimal", autocomplete: "off", spellcheck: "false", maxlength: 60, "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
-      oninput: () => (this.isTyping = true), onchange: () => this.commit(), onblur: () => this.commit(),
-      onkeydown: ({ key }) => {
-        if (key === "Enter") this.commit();
-        if (key !== "Escape" || !this.isTyping) return;
-        this.isTyping = false;
-        this.write(this.text);
-      },
-    });
+    this.number = entry({ "aria-label": said.typed, "aria-describedby": `${id}-wrong` }, (typed) => this.send(typed), () => this.write(this.text));
     this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
     this.below = part("div", { class: "below" });
     this.remark = part("p", { class: "small", role: "status" });
@@ -60,12 +52,11 @@ export class Control {
       part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.remark, this.wrong);
   }
 
-  // Requests what was typed, once. An element that was moved in the page raises no "change".
-  commit() {
-    if (!this.isTyping) return;
-    this.isTyping = false;
-    const value = read(this.number.value);
-    this.ask(this.name, Number.isFinite(value) ? value : this.number.value, true);
+  // Requests what was typed.
+  /** @param {string} typed */
+  send(typed) {
+    const value = read(typed);
+    this.ask(this.name, Number.isFinite(value) ? value : typed, true);
     if (!Number.isFinite(value) || this.isApart) return;
     this.slider.value = String(value);
     this.put(value);
@@ -85,7 +76,7 @@ export class Control {
   /** @param {number} value */
   print(value) {
     const { digits } = this.limits;
-    return digits === null ? local(String(Number(value.toPrecision(6)))) : written(value, digits, this.texts.decimal);
+    return digits === null ? tidy(value, 6) : written(value, digits, this.texts.decimal);
   }
 
   /** @param {number} value */
@@ -97,7 +88,7 @@ export class Control {
   /** @param {string} text */
   write(text) {
     const { number } = this, { value, selectionStart, selectionEnd } = number;
-    if (this.isTyping) return;
+    if (number.isTyping) return;
     this.text = text;
     if (value === text) return;
     number.value = text;

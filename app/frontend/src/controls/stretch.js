@@ -1,9 +1,11 @@
 // A part of a range: two native sliders over one track, and its two ends as numbers.
 import { fill } from "../data.js";
-import { follow, frame } from "./frame.js";
+import { follow } from "../life.js";
+import { entry } from "./entry.js";
+import { frame } from "./frame.js";
 import { forFingers, numbers } from "./style.js";
 import { explain } from "./wrong.js";
-import { part, read, written } from "../lab/parts.js";
+import { part, read, written } from "../widgets/parts.js";
 
 const style = `${numbers} .ctl { width: 100%; } .track { grid-column: 1 / -1; position: relative; height: 24px; }
 .track::before { content: ""; position: absolute; inset: 10px 0; border-radius: 2px;
@@ -22,8 +24,7 @@ class Ends {
     const { texts } = this.model;
     this.sliders = [0, 1].map((i) => part("input", { type: "range", step: "any", "aria-label": `${this.model.label}, ${texts.ends[i]}`,
       oninput: () => this.pull(i), onchange: () => this.send(this.pulled), onkeydown: (event) => this.step(i, event) }));
-    this.entries = [0, 1].map((i) => part("input", { type: "text", class: "num", inputmode: "decimal", autocomplete: "off", maxlength: 60,
-      "aria-label": `${this.model.label}, ${texts.ends[i]}`, onchange: () => this.typed(i) }));
+    this.entries = [0, 1].map((i) => entry({ "aria-label": `${this.model.label}, ${texts.ends[i]}` }, () => this.typed(i), () => this.show()));
     this.track = part("div", { class: "track" }, ...this.sliders);
     frame(rendering, style, part("div", { class: "ctl" }, part("b", {}, this.model.label),
       part("span", {}, this.entries[0], " – ", this.entries[1], part("span", { class: "unit" }, this.model.unit)), this.track, this.wrong));
@@ -77,6 +78,4 @@ class Ends {
 }
 
 /** @param {Rendering<StretchModel>} rendering */
-export function renderStretch(rendering) {
-  return void new Ends(rendering);
-}
+export const renderStretch = (rendering) => void new Ends(rendering);

@@ -51,7 +51,7 @@ export const numbers = `
 .ctl label { font-weight: 600; }
 .num { width: 72px; border: 0; border-bottom: 1px solid var(--line-2); background: none; padding: 0; height: 24px; border-radius: 0; text-align: right; font-variant-numeric: tabular-nums; }
 .num:focus-visible { outline-offset: 0; }
-.unit { color: var(--ink-2); margin-left: 4px; display: inline-block; min-width: 3ch; }
+.unit { color: var(--ink-2); margin-left: 4px; display: inline-block; min-width: 4ch; }
 .ctl > :is(.ticks, .below, .wrong) { grid-column: 1 / -1; }
 .ctl input[type=range] { grid-column: 1 / -1; -webkit-appearance: none; appearance: none; width: 100%; height: 24px; margin: 0; background: none; cursor: pointer; }
 .ctl input::-webkit-slider-runnable-track { height: 4px; border-radius: 2px; background: linear-gradient(90deg, var(--accent) var(--p, 50%), var(--line-2) var(--p, 50%)); }
@@ -61,6 +61,21 @@ export const numbers = `
 .bad .num { border-bottom: 3px solid var(--ink); font-weight: 600; }
 .wrong { display: flex; gap: 8px; margin-top: 4px; line-height: 1.4; }
 .wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
+`;
+
+// A stage with tops side by side, and below it a line of time.
+export const timed = `
+.stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
+.tops { position: absolute; inset: 0; display: flex; } .place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
+.pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
+.plot { position: relative; } .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; } .event { stroke: var(--line-2); stroke-dasharray: 2 3; }
+.timeline .plot { cursor: pointer; touch-action: pan-y; user-select: none; }
+.timeline .rest { stroke: var(--line-2); stroke-width: 1.5; } .timeline .past { stroke: var(--ink); stroke-width: 2.2; }
+.timeline .now { position: absolute; left: -1px; top: 10px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
+.timeline .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
+.at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; } .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
+.spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .own { stroke: var(--q-spin); } .turning { stroke: var(--ink); } .energy { stroke: var(--q-energy); }
+@container (max-width: 700px) { .timeline .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; } }
 `;
 
 // How far something is that takes a while.

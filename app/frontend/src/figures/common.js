@@ -1,7 +1,8 @@
 // Used by all figures. Their models are not synced, so playing sends nothing to the server.
 import { elementOf, pressNever } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
-import { followClock, isFollowed } from "./seeking.js";
+import { dress } from "../widgets/parts.js";
+import { followClock, isFollowed, LAB } from "./seeking.js";
 
 // To a screen reader a canvas is an image with a name.
 /** @param {{ fig: Figure, label: string }} given */
@@ -9,17 +10,15 @@ export function nameFigure({ fig, label }) {
   const el = elementOf(fig);
   if (!el) return;
   pressNever(fig);
-  el.setAttribute("role", "img");
-  el.setAttribute("aria-label", label);
-  el.dataset.figure = fig.name;
+  dress(el, { role: "img", "aria-label": label, "data-figure": fig.name });
 }
 
 // Lines at the time of the clock. path: its tags have the unit of time; range: the time axis, which turns a page where
 // they leave it.
 /** @param {{ spans: BokehModel[], clock?: string, path?: Source, range?: BokehModel & { start: number, end: number } }} given */
-export function moveLines({ spans, clock, path, range }) {
+export function moveLines({ spans, clock = LAB, path, range }) {
   if (isFollowed(spans[0])) return;
-  const move = (t) => {
+  const move = ({ t }) => {
     const now = t * (path?.tags[0] ?? 1);
     for (const span of spans) span.setv({ location: now }, { sync: false });
     if (!range) return;
@@ -27,5 +26,5 @@ export function moveLines({ spans, clock, path, range }) {
     if (now < start || now > end) range.setv({ start: turned, end: turned + page }, { sync: false });
   };
   followClock(move, clock);
-  move(timeOf(clock));
+  move({ t: timeOf(clock) });
 }

@@ -6,14 +6,14 @@ import { colours } from "../colours.js";
 import { coalesce, float32, local, penOf } from "../data.js";
 import { centreOf, emptyPose } from "../motion/frames.js";
 import { wordOf } from "../regimes.js";
-import { followLook } from "../three/scene.js";
+import { report } from "../life.js";
+import { followScene } from "../three/scene.js";
+import { part } from "../widgets/parts.js";
 
 const LEAST_REACH = 1.6, BELOW = 0.6; // R: the least height shown above O, and what is shown below the table
 const WIDTH = 640; // px: width of a printed picture if the one on the page has no size
 
 const centre = new Vector3();
-
-const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
 
 // The outline of a body whose radius is R px, tilted about O at (x, y), with a mark that turns with the body.
 /** @param {CanvasRenderingContext2D} pen @param {Float32Array} profile @param {{ x: number, y: number, R: number, tilt: number, turn: number, edge: string }} place */
@@ -47,29 +47,26 @@ function drawBody(pen, profile, { x, y, R, tilt, turn, edge }) {
 }
 
 class Flat {
-  /** @param {TopModel} model @param {HTMLElement} root @param {HTMLElement} picture */
-  constructor(model, root, picture) {
+  /** @param {TopModel} model @param {{ root: HTMLElement, picture: HTMLElement, life: AbortSignal }} frame */
+  constructor(model, { root, picture, life }) {
     this.model = model;
     this.picture = picture;
-    this.canvas = document.createElement("canvas");
-    this.canvas.style.cursor = "default";
-    this.canvas.setAttribute("role", "img");
-    this.canvas.setAttribute("aria-label", model.label || model.texts.label);
+    this.canvas = part("canvas", { style: "cursor: default", role: "img", "aria-label": model.label || model.texts.label });
     picture.prepend(this.canvas);
     this.pose = emptyPose();
     this.pictures = 0;
     this.reach = LEAST_REACH;
     this.verdict = model.texts.no_motion;
-    this.report = reportOf(this);
-    this.draw = coalesce(() => this.tick());
+    this.draw = coalesce(() => this.tick(), life);
     this.place = new Place({
-      model, picture, report: this.report,
+      model, picture, life, report: this.report,
       changed: () => this.draw(),
       inView: () => picture.clientWidth > 0,
       photo: (wide) => this.photo(wide),
     });
     this.player = this.place.player;
     this.bar = model.bare ? null : new Bar(root, picture, model, this.player, null);
+    this.begin(life);
   }
 
   tick() {
@@ -98,10 +95,10 @@ class Flat {
   paint(on, width, height, scale) {
     const pen = penOf(on), { player, pose, model } = this, look = /** @type {Record<string, any>} */ (this.look);
     pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.fillStyle = hex(look.sky);
+    pen.fillStyle = look.sky;
     pen.fillRect(0, 0, width, height);
     const R = height / (this.reach + 1.3 + BELOW), table = height - BELOW * R;
-    pen.fillStyle = hex(look.table);
+    pen.fillStyle = look.table;
     pen.fillRect(0, table, width, height - table);
     this.verdict = model.texts.no_motion;
     if (!player.frames.count) return;
@@ -109,8 +106,8 @@ class Flat {
     const { x, y, z, w } = pose.quaternion;
     const tilt = pose.theta, psi = Math.atan2(z, w) - Math.atan2(y, x);
     centreOf(pose, model.a, centre);
-    drawBody(pen, float32(model.profile), { x: width / 2, y: table - centre.z * R, R, tilt, turn: psi, edge: hex(look.edge) });
-    pen.fillStyle = hex(look.ink);
+    drawBody(pen, float32(model.profile), { x: width / 2, y: table - centre.z * R, R, tilt, turn: psi, edge: look.edge });
+    pen.fillStyle = look.ink;
     pen.font = "600 15px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.fillText(`θ = ${local(((180 * tilt) / Math.PI).toFixed(1))}°`, width / 2, 24);
@@ -124,53 +121,36 @@ class Flat {
     this.draw();
   }
 
-  begin() {
-    const { model, place, draw, report } = this, resizing = new ResizeObserver(draw);
+  /** @param {AbortSignal} life */
+  begin(life) {
+    const { model, place, draw } = this;
     model.on("frames", () => {
       place.take();
       draw();
     });
     model.on("profile", () => this.newProfile());
-    resizing.observe(this.picture);
+    new ResizeObserver(draw).observe(this.picture);
     this.newProfile();
     place.take();
     place.begin();
-    if (!model.clock) window.__tippe.flat = report;
-    const unfollow = followLook((now) => {
+    if (!model.clock) report("flat", this.report, life);
+    followScene((now) => {
       this.look = now;
       draw();
-    });
-    return () => {
-      unfollow();
-      draw.cancel();
-      resizing.disconnect();
-      place.leave();
-      if (window.__tippe.flat === report) delete window.__tippe.flat;
-    };
+    }, life);
   }
-}
 
-// A report of what is drawn, for tests.
-/** @param {Flat} flat */
-function reportOf(flat) {
-  return {
-    get pictures() { return flat.pictures; },
-    get t() { return flat.player.t; },
-    get index() { return flat.player.index; },
-    get count() { return flat.player.frames.count; },
-    get playing() { return flat.player.playing; },
-    get verdict() { return flat.verdict; },
+  report = () => {
+    const { pictures, verdict, player: { t, index, playing, frames: { count } } } = this;
+    return { pictures, t, index, count, playing, verdict };
   };
 }
 
-/** @param {Omit<Rendering<TopModel>, "el"> & { root: HTMLElement, picture: HTMLElement }} rendering */
-export function renderFlat({ model, root, picture, view }) {
-  const words = /** @type {HTMLElement} */ (picture.querySelector(".note"));
+/** @param {TopModel} model @param {{ root: HTMLElement, picture: HTMLElement, life: AbortSignal }} frame */
+export function renderFlat(model, frame) {
+  const words = /** @type {HTMLElement} */ (frame.picture.querySelector(".note"));
   words.textContent = model.texts.flat;
   Object.assign(words.style, { position: "static", marginTop: "6px" });
-  const flat = new Flat(model, root, picture);
-  root.append(words);
-  const dispose = flat.begin();
-  view.tippe = { dispose };
-  model.on("remove", dispose);
+  new Flat(model, frame);
+  frame.root.append(words);
 }

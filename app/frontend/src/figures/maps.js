@@ -25,9 +25,7 @@ function stateOf(hand) {
 
 // The distance of the bead from a place, in px.
 /** @param {Pick<Source<"x" | "y">, "data">} bead @param {number[]} place @param {Record<"x" | "y", Pick<PixelScale, "compute">>} scales */
-function awayFromBead({ data }, [px, py], { x, y }) {
-  return Math.hypot(x.compute(data.x[0]) - px, y.compute(data.y[0]) - py);
-}
+const awayFromBead = ({ data }, [px, py], { x, y }) => Math.hypot(x.compute(data.x[0]) - px, y.compute(data.y[0]) - py);
 
 /** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y">, box: Settable }} given @param {Happened} event */
 export function pullBead({ fig, hand, bead, box }, event) {

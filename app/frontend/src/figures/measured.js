@@ -14,9 +14,7 @@ export function pullFilm({ fig, hand, starts, curves }, event) {
   const { x, sx } = event, name = gestureOf(event), { start, end } = fig.x_range;
   const near = Math.abs(scalesOf(fig).x.compute(starts[0].location) - sx) < REACH;
   if (name === "mousemove") return setCursor(fig, near ? "ew-resize" : "pointer");
-  if (name === "panstart" && near) {
-    pulls.set(hand, { first: starts[0].location, curves: curves.map(({ data }) => Array.from(data.t)) });
-  }
+  if (name === "panstart" && near) pulls.set(hand, { first: starts[0].location, curves: curves.map(({ data }) => Array.from(data.t)) });
   const pull = pulls.get(hand);
   if (!pull) return seek(x, isDown(event), CLOCK);
   const at = Math.min(Math.max(x, start), end);

@@ -17,10 +17,10 @@ export function followCurve({ curve, bead, fig }) {
     bead.change.emit();
   };
   curve.properties.data.change.connect(place);
-  followClock((t) => {
+  followClock(({ t }) => {
     now = t;
     if (elementOf(fig)?.offsetParent) place();
-  });
+  }, LAB);
   place();
 }
 

@@ -1,11 +1,11 @@
 // The values at a place of a figure, in one box for all figures: beside the pointer, inside the window, and never over
 // what it describes.
+import { part } from "../widgets/parts.js";
 
 const GAP = 14, EDGE = 6; // px from the pointer or from what must stay visible, and from the edge of the window
 const STYLE = {
-  position: "fixed", zIndex: "1500", pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px",
-  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink)",
-  background: "var(--card)", border: "1px solid var(--faint)",
+  position: "fixed", zIndex: 1500, pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px", borderRadius: "6px",
+  font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink)", background: "var(--card)", border: "1px solid var(--faint)",
 };
 
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
@@ -27,7 +27,7 @@ export function placeBeside([x, y], { wide, high }, page, clear) {
   const own = { left: x - GAP / 2, right: x + GAP / 2, top: y - GAP / 2, bottom: y + GAP / 2 }, kept = [own, ...clear];
   const level = y - high / 2, middle = x - wide / 2;
   const places = [[x + GAP, level], [x - GAP - wide, level], [middle, y - GAP - high], [middle, y + GAP],
-    ...kept.flatMap((box) => [[middle, box.top - GAP - high], [middle, box.bottom + GAP]])];
+    ...kept.flatMap((each) => [[middle, each.top - GAP - high], [middle, each.bottom + GAP], [each.right + GAP, level], [each.left - GAP - wide, level]])];
   let found = { left: 0, top: 0 }, least = Infinity;
   for (const [across, down] of places) {
     const left = inside(across, wide, page.wide), top = inside(down, high, page.high);
@@ -45,9 +45,7 @@ let owner;
 
 function boxOf() {
   if (!box?.isConnected) {
-    box = document.createElement("div");
-    box.className = "tippe-readout";
-    Object.assign(box.style, STYLE);
+    box = /** @type {HTMLElement} */ (part("div", { class: "tippe-readout", style: STYLE }));
     document.body.append(box);
   }
   return box;
@@ -63,6 +61,7 @@ export function showReadout(whose, words, hand, clear) {
   const { left, top } = placeBeside(hand, { wide: shown.offsetWidth, high: shown.offsetHeight },
     { wide: innerWidth, high: innerHeight }, clear);
   Object.assign(style, { left: `${left}px`, top: `${top}px` });
+  return shown;
 }
 
 /** @param {object} whose */

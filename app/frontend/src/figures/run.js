@@ -42,7 +42,7 @@ export function followWell(given) {
     shown = null;
     placeBead();
   });
-  followClock((t) => {
+  followClock(({ t }) => {
     now = t * path.tags[0];
     placeBead();
   }, clock);

@@ -3,9 +3,7 @@
 export const LAB = "lab"; // the clock of the page's start
 
 /** @param {number} t @param {boolean} held */
-export function seek(t, held, clock = LAB) {
-  window.dispatchEvent(new CustomEvent(`tippe:seek:${clock}`, { detail: { t, held } }));
-}
+export const seek = (t, held, clock = LAB) => window.dispatchEvent(new CustomEvent(`tippe:seek:${clock}`, { detail: { t, held } }));
 
 /** @param {Pick<Happened, "event_name">} event */
 export const isDown = ({ event_name: name }) => name === "panstart" || name === "pan";
@@ -16,9 +14,7 @@ export const gestureOf = ({ event_name: name }) => (name === "doubletap" ? "tap"
 
 // Takes the time from the figure's time axis. path: its tags have the unit of that axis.
 /** @param {{ clock?: string, path?: Source }} given @param {Happened} event */
-export function seekAlong({ clock, path }, event) {
-  seek(event.x / (path?.tags[0] ?? 1), isDown(event), clock);
-}
+export const seekAlong = ({ clock, path }, event) => seek(event.x / (path?.tags[0] ?? 1), isDown(event), clock);
 
 // Bokeh calls this each time a figure is resized, the first time as soon as there is something to move. Only the first
 // call may register listeners.
@@ -31,7 +27,6 @@ export function isFollowed(followers) {
   return false;
 }
 
-/** @param {(t: number) => void} move */
-export function followClock(move, clock = LAB) {
-  window.addEventListener(`tippe:clock:${clock}`, ({ detail: { t } }) => move(t));
-}
+// Calls move with each moment that the top which leads the clock shows.
+/** @param {(moment: { t: number, index: number, playing: boolean, verdict: string }) => void} move @param {string} clock @param {AbortSignal} [life] */
+export const followClock = (move, clock, life) => window.addEventListener(`tippe:clock:${clock}`, ({ detail }) => move(detail), { signal: life });

@@ -1,10 +1,10 @@
 // Shows one picture at a time; each answers a question about the run: where the height comes from, which way the top
 // turns, where it touches the table, and the ball.
-import { caps } from "./caps.js";
+import { caps, trail } from "./caps.js";
 import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
 import { levels as grid, marks, times } from "./line.js";
 import { lineOf } from "./numbers.js";
-import { Choice, drawn, part, say } from "./parts.js";
+import { Choice, drawn, dress, part, say } from "../widgets/parts.js";
 import { Frames } from "../motion/frames.js";
 
 const NAMES = ["energy", "spin", "path", "trace"];
@@ -32,10 +32,9 @@ export class Answer {
     this.title = part("h2");
     this.note = part("p", { class: "small" });
     this.choice = new Choice({
-      role: "tab", label: texts.pictures, options: NAMES.map((name) => [name, texts.answers[name].tab, ""]),
+      role: "tab", label: texts.pictures, kind: "mini", options: NAMES.map((name) => [name, texts.answers[name].tab]),
       choose: (name) => this.look(name),
     });
-    this.choice.element.className = "mini";
     this.drawing = drawn("svg", { role: "img" });
     this.readout = part("p", { class: "readout", hidden: true, "aria-hidden": "true" });
     this.plot = part("div", { class: "plot", role: "tabpanel" }, this.drawing, this.readout);
@@ -46,8 +45,7 @@ export class Answer {
       part("div", { class: "titled" }, this.title, this.choice.element, this.larger), this.note, this.plot);
     this.plot.onpointermove = (event) => this.point(event);
     this.plot.onpointerleave = () => (this.readout.hidden = true);
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
+    new ResizeObserver(() => this.draw()).observe(this.plot);
   }
 
   // Fills the window; the same button or Escape ends that. All of it moves, so that it looks the same there.
@@ -103,9 +101,7 @@ export class Answer {
     this.draw();
   }
 
-  get right() {
-    return this.width - RIGHT;
-  }
+  get right() { return this.width - RIGHT; }
 
   x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
 
@@ -135,9 +131,7 @@ export class Answer {
     this.drawing.append(name);
     for (const share of [...NAMED, NAMED[0]]) { // if there is room nowhere, at the first
       const [x, y, ground = ""] = this.unnamed(share);
-      name.setAttribute("class", `halo ${ground}`);
-      name.setAttribute("x", x.toFixed(1));
-      name.setAttribute("y", y.toFixed(1));
+      dress(name, { class: `halo ${ground}`, x: x.toFixed(1), y: y.toFixed(1) });
       const box = name.getBBox();
       if (!others.some((other) => meets(box, other))) return;
     }
@@ -257,17 +251,15 @@ export class Answer {
         return [x + 6, y + 4];
       };
     }
-    const past = drawn("path", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
+    const { shapes, move } = trail(points);
     this.moves.push((t) => {
-      const count = kept.filter(([when]) => when <= t + 1e-9).length, [x, y] = at(kept[Math.max(count - 1, 0)]);
-      past.setAttribute("d", points.slice(0, count).join(""));
-      dot.setAttribute("cx", String(x));
-      dot.setAttribute("cy", String(y));
+      const count = kept.filter(([when]) => when <= t + 1e-9).length;
+      move(count, at(kept[Math.max(count - 1, 0)]));
     });
     const mm = ticks(0, (wide * R) / scale, 3)[1], bar = (mm / R) * scale, foot = this.height - 8;
     return [
       ...(then.length ? [drawn("path", { class: "then", d: pathOf(then).join("") })] : []),
-      drawn("path", { class: "rest", d: points.join("") }), past, dot,
+      ...shapes,
       drawn("path", { class: "axis", d: `M${RIGHT} ${foot - 5}v5h${bar}v-5` }),
       drawn("text", { x: RIGHT + bar + 8, y: foot + 2 }, say(texts, "{mm} mm", { mm: [mm, mm < 1 ? 1 : 0] })),
     ];
@@ -283,12 +275,8 @@ export class Answer {
   /** @param {number} t */
   at(t) {
     if (!this.width || !this.scene) return;
-    for (const set of ["x1", "x2"]) this.now.setAttribute(set, String(this.x(t)));
+    dress(this.now, { x1: this.x(t), x2: this.x(t) });
     for (const move of this.moves) move(t);
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }
 

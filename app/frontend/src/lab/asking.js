@@ -48,7 +48,5 @@ export class Asking {
   }
 
   // Whether a request has not been answered yet.
-  get isAhead() {
-    return this.waiting.size > 0 || this.answered < this.count;
-  }
+  get isAhead() { return this.waiting.size > 0 || this.answered < this.count; }
 }

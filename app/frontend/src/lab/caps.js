@@ -1,6 +1,6 @@
 // The ball's surface as a map of two caps, seen from below and from the stem; away from the middle the tilt at which a
 // point touches the table. On it the trace of the contact.
-import { drawn, say } from "./parts.js";
+import { drawn, dress, say } from "../widgets/parts.js";
 import { passedBy, traceOf } from "../motion/trace.js";
 import { Frames } from "../motion/frames.js";
 
@@ -28,7 +28,7 @@ export function caps(texts, { bytes, a, unit, width, height }) {
   });
   const isJoined = (i) => i > 0 && trace.on[i] && trace.on[i - 1] && at[i][0] === at[i - 1][0];
   const steps = at.map(([, x, y], i) => (trace.on[i] ? `${isJoined(i) ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}` : ""));
-  const rest = drawn("path", { class: "rest", d: steps.join("") }), past = drawn("path", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
+  const { shapes: [rest, past, dot], move } = trail(steps);
   const rings = [0, 1].flatMap((cap) => RINGS.map((ring) =>
     drawn("circle", { class: ring === 90 ? "axis" : "grid", cx: middle(cap), cy: y0, r: (r * ring) / 90, fill: "none" })));
   const words = [0, 1].flatMap((cap) => [
@@ -36,12 +36,20 @@ export function caps(texts, { bytes, a, unit, width, height }) {
       say(texts, "{tilt}°", { tilt: [cap ? 180 - ring : ring, 0] }))),
     drawn("text", { x: middle(cap), y: y0 + r + ROOM - 4, "text-anchor": "middle" }, said.caps[cap]),
   ]);
-  const move = (t) => {
-    const count = passedBy(trace, frames.place(t / unit) + 1e-9), [, x, y] = at[Math.max(count - 1, 0)];
-    past.setAttribute("d", steps.slice(0, count).join(""));
-    dot.setAttribute("cx", String(x));
-    dot.setAttribute("cy", String(y));
-    dot.style.display = trace.on[Math.max(count - 1, 0)] ? "" : "none";
+  const moveTo = (t) => {
+    const count = passedBy(trace, frames.place(t / unit) + 1e-9), i = Math.max(count - 1, 0), [, x, y] = at[i];
+    move(count, [x, y]);
+    dot.style.display = trace.on[i] ? "" : "none";
   };
-  return { lines: [...rings, rest, past, ...words, dot], move };
+  return { lines: [...rings, rest, past, ...words, dot], move: moveTo };
+}
+
+// A track: all of it, what has passed, and where it is.
+/** @param {string[]} steps of its path */
+export function trail(steps) {
+  const past = drawn("path", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
+  return { shapes: [drawn("path", { class: "rest", d: steps.join("") }), past, dot], move: (/** @type {number} */ count, /** @type {number[]} */ [cx, cy]) => {
+    dress(past, { d: steps.slice(0, count).join("") });
+    dress(dot, { cx, cy });
+  } };
 }

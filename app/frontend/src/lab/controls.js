@@ -1,11 +1,11 @@
 // The start as a person sets it: spin, tilt and friction, each with a slider and a field, and "Spin it". The table and
 // the top itself are in folds.
-import { Body } from "./body.js";
+import { foldOf } from "./body.js";
 import { Control } from "../controls/number.js";
 import { Picks } from "../controls/picks.js";
-import { Launch } from "./launch.js";
-import { Law } from "./law.js";
-import { part, say } from "./parts.js";
+import { launchOf } from "./launch.js";
+import { lawOf } from "./law.js";
+import { part, say } from "../widgets/parts.js";
 
 export const INPUTS = ["spin", "tilt", "mu"];
 
@@ -15,9 +15,9 @@ export class Controls {
     this.texts = texts;
     this.parts = INPUTS.map((name) => new Control(name, texts.inputs[name], texts, ask));
     const [turns] = this.parts;
-    this.law = new Law(texts, ask);
-    this.folds = [new Body(texts, ask, "rubs", "rubs", this.law.element), new Body(texts, ask, "body", "dims")];
-    this.launch = new Launch(texts, {
+    this.law = lawOf(texts, ask);
+    this.folds = [foldOf(texts, ask, "rubs", "rubs", this.law.element), foldOf(texts, ask, "body", "dims")];
+    this.launch = launchOf(texts, {
       spin, launch: () => ask("spin", turns.value), stop: () => ask("stop", ""),
       strength: (share) => say(texts, texts.strength, { spin: [turns.putShare(share), 0] }),
     });

@@ -1,5 +1,5 @@
 // One run over time, as numbers to draw: app/tabs/lab/lab.py says what each column contains.
-import { float32, niceAbove, rowBefore } from "../data.js";
+import { float32, rowBefore, stepOf } from "../data.js";
 
 const WIDTH = 8;
 export const TABLES = ["ordinary", "rough", "ice"];
@@ -12,14 +12,10 @@ export class Curves {
     this.count = Math.floor(this.rows.length / WIDTH);
   }
 
-  get end() {
-    return this.count ? this.value(this.count - 1, TIME) : 0;
-  }
+  get end() { return this.count ? this.value(this.count - 1, TIME) : 0; }
 
   /** @param {number} i @param {number} column */
-  value(i, column) {
-    return this.rows[i * WIDTH + column];
-  }
+  value(i, column) { return this.rows[i * WIDTH + column]; }
 
   // The last row at or before t.
   /** @param {number} t */
@@ -60,17 +56,13 @@ export class Curves {
 
 // The last list that has begun; each starts with its time.
 /** @param {any[][]} list @param {number} t */
-export function latest(list, t) {
-  return list.filter(([from]) => from <= t + 1e-9).at(-1) ?? list[0];
-}
+export const latest = (list, t) => list.filter(([from]) => from <= t + 1e-9).at(-1) ?? list[0];
 
 // Round numbers from least to most, about `count` of them.
 /** @param {number} least @param {number} most @param {number} count */
-export function ticks(least, most, count) {
-  const rough = (most - least) / count, decade = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((digit) => digit * decade).find((s) => s >= rough * (1 - 1e-9)) ?? niceAbove(rough);
+export function ticks(least, most, count, step = stepOf((most - least) / count)) {
   const found = [];
-  for (let i = Math.ceil(least / step - 1e-9); i * step <= most + 1e-3 * step; i++) found.push(i * step);
+  for (let i = Math.ceil(least / step - 1e-6); i * step <= most + 1e-3 * step; i++) found.push(i * step);
   return found;
 }
 

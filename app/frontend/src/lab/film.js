@@ -4,9 +4,9 @@ import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
 import { SPEEDS, Time } from "./time.js";
-import { Words } from "./words.js";
-import { followLook } from "../controls/look.js";
+import { wordsOf } from "./words.js";
 import { penOf } from "../data.js";
+import { followLook } from "../life.js";
 import { filmedOn } from "../motion/clock.js";
 import { HIGH, WIDE } from "../motion/filmed.js";
 import { imageOf, paintBox, paintWords } from "../paint.js";
@@ -21,6 +21,7 @@ const STYLE = `${style} .film { position: fixed; left: -9999px; top: 0; visibili
 export class Film {
   /** @type {HTMLImageElement[]} */
   drawings = []; // the line before and after any of it was played, and the ring
+  life = new AbortController();
   /** @param {import("../motion/filmed.js").Filmed} lab */
   constructor(lab) {
     const { model, scene, answer, time: { span } } = lab, { texts } = model;
@@ -28,10 +29,10 @@ export class Film {
     this.texts = texts;
     this.scene = { ...scene, waits: false };
     this.isMapped = answer.name === "trace";
-    const time = (this.time = new Time(() => {}, CLOCK)), nothing = () => {};
-    this.stage = new Stage(texts, time, nothing, { camera: model.camera });
+    const nothing = () => {}, life = this.life.signal, time = (this.time = new Time(nothing, life, CLOCK));
+    this.stage = new Stage(texts, time, nothing, { camera: model.camera, life });
     this.strip = new Strip(texts, time);
-    this.words = new Words(texts, nothing, nothing);
+    this.words = wordsOf(texts, nothing, nothing);
     Object.assign(time, { unit: model.seconds, end: scene.end, span, events: scene.run?.events ?? [], chosen: lab.time.chosen, playing: true, held: true });
     this.pace = part("span");
     this.strip.element.lastChild.append(this.pace);
@@ -46,7 +47,7 @@ export class Film {
   async begin() {
     const { model, stage, strip, scene, frame } = this;
     document.body.append(this.place);
-    this.unfollow = followLook(frame, () => frame.toggleAttribute("data-large", true));
+    followLook(frame, this.life.signal, () => frame.toggleAttribute("data-large", true));
     stage.dress(model, scene.isOpen, this.isMapped);
     for (const top of stage.tops) top.put({ playing: false, now: 0 });
     for (const shown of [stage, strip, this.words]) shown.show(scene);
@@ -104,8 +105,7 @@ export class Film {
   }
 
   leave() {
-    for (const gone of [this.time, this.stage, this.strip]) gone.leave();
-    this.unfollow?.();
+    this.life.abort();
     this.place.remove();
   }
 }

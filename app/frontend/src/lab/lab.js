@@ -8,17 +8,17 @@ import { Curves, TABLES } from "./curves.js";
 import { Film } from "./film.js";
 import { Flicking } from "./flick.js";
 import { Keeps } from "./keeps.js";
-import { Numbers } from "./numbers.js";
-import { part } from "./parts.js";
+import { numbersOf } from "./numbers.js";
+import { part } from "../widgets/parts.js";
 import { Sound } from "./sound.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
 import { Time } from "./time.js";
 import { SHOWS } from "./top.js";
-import { Words } from "./words.js";
-import { followLook } from "../controls/look.js";
+import { wordsOf } from "./words.js";
 import { coalesce, debounce, float32 } from "../data.js";
+import { atEnd, followLook, lifeOf } from "../life.js";
 import { canBeFilmed } from "../motion/filmed.js";
 import { Press } from "../widgets/press.js";
 
@@ -30,8 +30,8 @@ const PATIENCE = 100; // ms that the old picture may be beside the new start wit
 const canTilt = ({ state }) => "tilt" in (JSON.parse(state).sliders ?? { tilt: true });
 
 export class Lab {
-  /** @param {Rendering<LabModel>} rendering */
-  constructor({ model, el }) {
+  /** @param {Pick<Rendering<LabModel>, "model" | "el">} rendering @param {AbortSignal} life */
+  constructor({ model, el }, life) {
     const { texts } = model;
     this.model = model;
     this.patience = this.since = 0;
@@ -40,20 +40,20 @@ export class Lab {
     this.bytes = {}; // the bytes that were read last, and the curves made from them
     /** @type {Record<string, any>} */
     this.state = {};
-    this.time = new Time(coalesce(() => this.at()));
+    this.time = new Time(coalesce(() => this.at(), life), life);
     this.asking = new Asking((...asked) => (model.asked = asked));
-    this.press = new Press();
+    this.press = new Press(life);
     const ask = (name, value) => this.ask(name, value);
     this.sound = new Sound();
     this.before = new Before(texts);
     this.time.chose = (speed) => (model.speed = speed);
     this.flick = texts.lets_go ? new Flicking(this) : undefined; // a page without a server computes no new run
-    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: canTilt(model) ? this.hand() : undefined, flick: this.flick, camera: model.camera, set: (name, value) => (model[name] = value) });
+    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: canTilt(model) ? this.hand() : undefined, flick: this.flick, camera: model.camera, life, set: (name, value) => (model[name] = value) });
     this.strip = new Strip(texts, this.time);
-    this.words = new Words(texts, ask, () => this.goBack());
+    this.words = wordsOf(texts, ask, () => this.goBack());
     this.answer = new Answer(texts, this.time, () => this.showLevel());
     this.keeps = new Keeps(texts);
-    this.numbers = new Numbers(texts);
+    this.numbers = numbersOf(texts);
     this.controls = new Controls(texts, ask, () => this.anewSpin());
     this.controls.element.append(this.numbers.element);
     this.element = part("div", { class: "lab" }, this.stage.element, this.strip.element, this.words.element,
@@ -61,12 +61,18 @@ export class Lab {
     this.frame = part("div", { class: "frame" }, this.element);
     for (const by of ["pointerdown", "keydown"]) this.strip.element.addEventListener(by, () => this.tells());
     el.replaceChildren(part("style", {}, style), this.frame);
-    this.unfollow = followLook(this.frame, () => {
+    followLook(this.frame, life, () => {
       this.strip.draw();
       this.answer.draw();
     });
-    this.show = coalesce(() => this.showNow());
-    this.isFilmedNoMore = canBeFilmed(this);
+    this.show = coalesce(() => this.showNow(), life);
+    this.tellSoon = debounce(() => this.tell(), TELL_MS, life);
+    window.addEventListener("tippe:command", () => this.tells(), { signal: life });
+    canBeFilmed(this, life);
+    atEnd(life, () => {
+      clearTimeout(this.patience);
+      this.sound.leave();
+    });
   }
 
   ask(name, value) {
@@ -102,7 +108,9 @@ export class Lab {
   }
 
   // A person has set the time: from now on Python is told of it.
-  tells = () => void (this.isTold = true);
+  tells() {
+    this.isTold = true;
+  }
 
   // Tells Python whether it plays, and the time at which it rests.
   tell() {
@@ -113,8 +121,6 @@ export class Lab {
     if (!time.playing && model.time !== t) model.time = t;
     this.isTelling = false;
   }
-
-  tellSoon = debounce(() => this.tell(), TELL_MS);
 
   // Sets how much is open, what is shown on the stage, and how fast it plays.
   showLevel = () => {
@@ -221,29 +227,15 @@ export class Lab {
     this.sound.at(this.time.t, this.time.playing && !this.time.held);
     for (const shown of [this.stage, this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.at(this.time.t);
   }
-
-  leave() {
-    clearTimeout(this.patience);
-    this.show.cancel();
-    this.tellSoon.cancel();
-    window.removeEventListener("tippe:command", this.tells);
-    for (const gone of [this.sound, this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
-    this.unfollow();
-    this.isFilmedNoMore();
-  }
 }
 
 /** @param {Rendering<LabModel>} rendering */
-export function renderLab({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
-  const lab = new Lab({ model, el, view });
+export function renderLab(rendering) {
+  const { model } = rendering, life = lifeOf(rendering, { hold: (held) => lab.asking.hold(held) }), lab = new Lab(rendering, life);
   for (const name of ["state", "told", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`, `keeps_${table}`])]) {
     model.on(name, lab.show);
   }
   for (const name of ["level", "speed", ...SHOWS]) model.on(name, lab.showLevel);
   for (const name of ["time", "playing"]) model.on(name, () => lab.hear());
-  window.addEventListener("tippe:command", lab.tells);
   lab.showLevel();
-  view.tippe = { dispose: () => lab.leave(), hold: (held) => lab.asking.hold(held) };
-  model.on("remove", () => lab.leave());
 }

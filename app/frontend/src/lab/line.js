@@ -1,19 +1,19 @@
 // What every time line has: a button that plays, a plot on which a press sets the time, and a mark of the present time.
-import { drawn, icon, part, say } from "./parts.js";
+import { drawn, icon, part, say } from "../widgets/parts.js";
 
 export const LEFT = 38, RIGHT = 12, FOOT = 22; // px around the plot
 
 // Lines across with their numbers at the left; the axis is the line of one of the values.
-/** @param {number[]} values @param {{ y: (value: number) => number, left: number, right: number }} plot @param {(value: number) => string} word */
-export const levels = (values, { y, left, right }, word, axis = 0) => values.flatMap((value) => [
+/** @param {number[]} values @param {{ y: (value: number) => number, left: number, right: number }} plot @param {(value: number) => string} word @param {number} down px from a line to the base line of its number */
+export const levels = (values, { y, left, right }, word, axis = 0, down = 4) => values.flatMap((value) => [
   drawn("line", { class: Math.abs(value - axis) < 1e-9 ? "axis" : "grid", x1: left, x2: right, y1: y(value), y2: y(value) }),
-  drawn("text", { x: left - 6, y: y(value) + 4, "text-anchor": "end" }, word(value)),
+  drawn("text", { x: left - 6, y: y(value) + down, "text-anchor": "end" }, word(value)),
 ]);
 
 // Numbers along the foot.
-/** @param {number[]} values @param {{ x: (value: number) => number, bottom: number }} plot @param {(value: number) => string} word */
-export const marks = (values, { x, bottom }, word) =>
-  values.map((value) => drawn("text", { x: x(value), y: bottom + 16, "text-anchor": "middle" }, word(value)));
+/** @param {number[]} values @param {{ x: (value: number) => number, bottom: number }} plot @param {(value: number) => string} word @param {number} down px from the foot to their base line */
+export const marks = (values, { x, bottom }, word, down = 16) =>
+  values.map((value) => drawn("text", { x: x(value), y: bottom + down, "text-anchor": "middle" }, word(value)));
 
 // The same for times, of which 0 has the unit.
 /** @param {Record<string, any>} texts @param {number} [digits] without it one, where it is needed */
@@ -43,8 +43,7 @@ export class TimeLine {
     this.line = part("span", { class: "now" });
     this.plot = part("div", { class: "plot" }, this.drawing, this.range, this.line, this.head);
     this.listen();
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
+    new ResizeObserver(() => this.draw()).observe(this.plot);
   }
 
   // The pointer takes over the time as soon as it is pressed, even if it does not move at first.
@@ -64,14 +63,10 @@ export class TimeLine {
 
   draw() {}
 
-  get right() {
-    return this.width - RIGHT;
-  }
+  get right() { return this.width - RIGHT; }
 
   // The length of the axis, in s.
-  get whole() {
-    return this.time.span || 1;
-  }
+  get whole() { return this.time.span || 1; }
 
   x = (t) => LEFT + ((this.right - LEFT) * t) / this.whole;
   timeAt = (x) => ((x - LEFT) / (this.right - LEFT)) * this.whole;
@@ -88,9 +83,5 @@ export class TimeLine {
     }
     this.range.value = String(t);
     return x;
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }

@@ -1,31 +1,21 @@
 // The numbers of the present moment, in a fold.
 import { ENERGY, HEAT, HEIGHT, SPIN, TIME, TURNING, TILT } from "./curves.js";
-import { part, say } from "./parts.js";
+import { part, say } from "../widgets/parts.js";
 
 /** @type {[name: string, column: number, digits: number][]} */
 const ROWS = [["t", TIME, 2], ["tilt", TILT, 1], ["height", HEIGHT, 1], ["energy", ENERGY, 1], ["heat", HEAT, 1], ["spin", SPIN, 1], ["turning", TURNING, 1]];
 
-export class Numbers {
-  /** @param {Record<string, any>} texts */
-  constructor(texts) {
-    this.texts = texts;
-    this.cells = ROWS.map(() => part("td"));
-    this.element = part("details", { class: "numbers", ontoggle: () => this.at(this.t ?? 0) }, part("summary", {}, texts.numbers),
-      part("table", {}, part("tbody", {}, ...ROWS.map(([name], i) => part("tr", {}, part("th", { scope: "row" }, texts.number[name][0]), this.cells[i])))));
-  }
-
-  show(scene) {
-    this.curves = scene.curves[scene.table === "three" ? "ordinary" : scene.table];
-  }
-
-  /** @param {number} t */
-  at(t) {
-    this.t = t;
-    if (!this.element.open || !this.curves?.count) return;
-    ROWS.forEach(([name, column, digits], i) => {
-      this.cells[i].textContent = said(this.texts, this.curves, name, column, digits, t);
-    });
-  }
+/** @param {Record<string, any>} texts */
+export function numbersOf(texts) {
+  const cells = ROWS.map(() => part("td"));
+  let curves = /** @type {any} */ (null), now = 0;
+  const at = (/** @type {number} */ t) => {
+    now = t;
+    if (element.open && curves?.count) ROWS.forEach(([name, column, digits], i) => (cells[i].textContent = said(texts, curves, name, column, digits, t)));
+  };
+  const element = part("details", { class: "numbers", ontoggle: () => at(now) }, part("summary", {}, texts.numbers),
+    part("table", {}, part("tbody", {}, ...ROWS.map(([name], i) => part("tr", {}, part("th", { scope: "row" }, texts.number[name][0]), cells[i])))));
+  return { element, at, show: (/** @type {any} */ scene) => void (curves = scene.curves[scene.table === "three" ? "ordinary" : scene.table]) };
 }
 
 // A quantity at a time, with its unit.

@@ -3,8 +3,8 @@
 import { thenAt } from "./before.js";
 import { latest, TABLES, TILT, TURNING } from "./curves.js";
 import { pushesIn } from "./flick.js";
-import { Choice, drawn, part, say } from "./parts.js";
-import { Told } from "./told.js";
+import { Choice, drawn, part, say } from "../widgets/parts.js";
+import { toldOf } from "./told.js";
 import { SPEEDS } from "./time.js";
 import { ARROWS, NOTHING, SHOWS, Top } from "./top.js";
 
@@ -15,25 +15,24 @@ export class Stage {
    * @param {Record<string, any>} texts
    * @param {import("./time.js").Time} time
    * @param {(name: string, value: any) => void} ask
-   * @param {{ forget?: () => void, hand?: { pull(degrees: number): void, letGo(): void }, flick?: Hand, camera: number[], set?: (name: string, value: any) => void }} of
+   * @param {{ forget?: () => void, hand?: { pull(degrees: number): void, letGo(): void }, flick?: Hand, camera: number[], life: AbortSignal, set?: (name: string, value: any) => void }} of
    *     forget: dismisses the earlier run; camera: the chosen view, or empty; set: sets it, and what is shown
    */
-  constructor(texts, time, ask, { forget, hand, flick, camera, set = () => {} }) {
+  constructor(texts, time, ask, { forget, hand, flick, camera, life, set = () => {} }) {
     this.texts = texts;
     this.time = time;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // below three tops: what each of them does
     const words = { ...texts, hint: [texts.flick_hint, texts.turn_hint].filter(Boolean).join(" "), handle: texts.axis, handle_hint: texts.axis_hint };
-    this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand, flick, camera, turned: (chosen) => set("camera", chosen) });
-    this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75, flick }));
+    this.alone = new Top({ texts: words, time, life, label: texts.stage, away: 1.3, hand, flick, camera, turned: (chosen) => set("camera", chosen) });
+    this.three = TABLES.map((table) => new Top({ texts, time, life, label: texts.labels[table], away: 1.75, flick }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));
     this.places = [part("div", { class: "place" }, this.alone.element),
       ...this.three.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i]))];
     this.choice = new Choice({
-      role: "radio", label: texts.table, choose: (table) => ask("table", table),
+      role: "radio", label: texts.table, kind: "seg", choose: (table) => ask("table", table),
       options: [...TABLES, "three"].map((name) => [name, texts.tables[name], texts.hints[name]]),
     });
-    this.choice.element.className = "seg";
     this.pill = part("div", { class: "pill" });
     this.turns = part("span");
     this.ring = part("div", { class: "ring" }, drawn("svg", { viewBox: "0 0 130 34", "aria-hidden": "true" },
@@ -50,7 +49,7 @@ export class Stage {
       return label;
     }), part("button", { type: "button", onclick: () => this.alone.firstView() }, texts.view)));
     this.missing = part("p", { class: "missing", role: "status" });
-    this.told = new Told(texts, time);
+    this.told = toldOf(texts, time, life);
     this.element = part("section", { class: "stage", "aria-label": texts.stage },
       part("div", { class: "tops" }, ...this.places), this.ring,
       part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),
@@ -70,9 +69,7 @@ export class Stage {
     this.menu.hidden = !isOpen;
   }
 
-  get tops() {
-    return [this.alone, ...this.three];
-  }
+  get tops() { return [this.alone, ...this.three]; }
 
   show(scene) {
     const { state, texts, table } = scene, three = table === "three";
@@ -132,10 +129,5 @@ export class Stage {
       this.ring.classList.toggle("back", turning < 0);
       this.ring.hidden = most < 0.05;
     }
-  }
-
-  leave() {
-    this.told.leave();
-    for (const top of this.tops) top.leave();
   }
 }

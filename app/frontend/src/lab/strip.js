@@ -1,7 +1,7 @@
 // The tilt over time, which also controls the time: play, drag anywhere on it, the speed, and back to the start.
 import { latest, placed, TABLES, ticks, TILT } from "./curves.js";
 import { FOOT, LEFT, levels, marks, RIGHT, TimeLine, times } from "./line.js";
-import { drawn, icon, part, say } from "./parts.js";
+import { drawn, icon, part, say } from "../widgets/parts.js";
 import { SPEEDS } from "./time.js";
 
 const HEADROOM = 36; // px above the plot
@@ -23,7 +23,7 @@ export class Strip extends TimeLine {
       time.again();
       time.play(true);
     } }, icon("again"), ` ${texts.again}`);
-    this.element = part("section", { class: "strip", "aria-label": texts.bar },
+    this.element = part("section", { class: "strip timeline", "aria-label": texts.bar },
       part("div", { class: "starts" }, this.play, this.clock), this.plot, part("div", { class: "paces" }, this.speed, again));
   }
 
@@ -32,14 +32,10 @@ export class Strip extends TimeLine {
   }
 
   // By the whole: the plot is wider beside short words, and would not be narrow then.
-  get isNarrow() {
-    return this.element.clientWidth < NARROW;
-  }
+  get isNarrow() { return this.element.clientWidth < NARROW; }
 
   // font size in px
-  get size() {
-    return parseFloat(getComputedStyle(this.plot).fontSize);
-  }
+  get size() { return parseFloat(getComputedStyle(this.plot).fontSize); }
 
   y = (tilt) => this.bottom - ((this.bottom - this.top) * tilt) / 180;
 

@@ -1,5 +1,5 @@
 // The Lab's style. The layout depends on the width of the Lab, not of the window.
-import { dock, forFingers, numbers, progress, shared } from "../controls/style.js";
+import { dock, forFingers, numbers, progress, shared, timed } from "../controls/style.js";
 import { endRules } from "../ends.js";
 
 // The layout: the top and the answer side by side, the bar that controls the time directly below the top.
@@ -7,7 +7,6 @@ const places = `
 .lab { display: grid; gap: 12px var(--gap); padding: 12px var(--gap) 8px; align-content: start;
   --stage: clamp(390px, var(--page, 100vh) - 322px, 62cqw);
   grid-template: "stage answer" calc(var(--stage) - 150px) "stage controls" 138px "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); }
-.stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
 .strip { grid-area: strip; min-width: 0; } .say { grid-area: say; min-width: 0; } .answer { grid-area: answer; min-width: 0; }
 .controls { grid-area: controls; min-width: 0; } .keeps { grid-area: answer; min-width: 0; display: none; overflow-x: auto; }
 .lab[data-table=three] { --stage: clamp(300px, var(--page, 100vh) - 458px, 40cqw);
@@ -51,8 +50,6 @@ const framed = `
 `;
 
 const stage = `
-.tops { position: absolute; inset: 0; display: flex; }
-.place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
 .lab.old .top { opacity: .38; }
 @container (max-width: 1180px) { .top { top: 20px; } }
 @container (max-width: 700px) { .top { top: 44px; } }
@@ -63,7 +60,6 @@ const stage = `
 .on > select { padding: 0 8px; min-height: calc(var(--touch) + 2px); min-width: 0; max-width: 46%; text-overflow: ellipsis; font-weight: 600; }
 .chip { position: absolute; left: 16px; top: 64px; display: flex; align-items: center; background: var(--ground); border-radius: 16px; padding-left: 12px; font-variant-numeric: tabular-nums; }
 .chip button { padding: 0; width: var(--touch); font-size: var(--t-l); border-radius: 16px; }
-.pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .law { display: none; } .lab[data-level=research] .law { display: grid; gap: 8px; justify-items: start; padding: 4px 0 8px; } .law .seg { flex-wrap: wrap; }
 .touches { display: flex; gap: 8px; align-items: center; min-height: var(--touch); cursor: pointer; } .touches input { width: 18px; height: 18px; margin: 0; accent-color: var(--accent); }
 .shows { position: absolute; right: 16px; bottom: 12px; background: var(--ground); border-radius: 8px; max-height: calc(100% - 80px); overflow: auto; }
@@ -91,17 +87,10 @@ const strip = `
 .strip { display: grid; grid-template-columns: 56px minmax(0, 1fr) auto; gap: 6px; align-items: center; }
 .starts { display: grid; gap: 4px; justify-items: center; } .clock { font-size: var(--t-s); font-variant-numeric: tabular-nums; }
 .paces { display: grid; gap: 4px; justify-items: start; } .again { padding: 0 4px; display: flex; align-items: center; gap: 6px; }
-.strip .plot { position: relative; height: 100%; font-size: var(--t-s); cursor: pointer; touch-action: pan-y; user-select: none; }
-.strip .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
-.event { stroke: var(--line-2); stroke-dasharray: 2 3; }
-.strip .rest { stroke: var(--line-2); stroke-width: 1.5; } .strip .past { stroke: var(--ink); stroke-width: 2.2; }
+.strip .plot { height: 100%; font-size: var(--t-s); } .strip .now { top: 20px; }
 .lab[data-table=three] .strip .ice { stroke-dasharray: 2 3; } .lab.old .strip :is(.rest, .past, .shape) { opacity: .38; }
 .then { stroke: var(--line-2); stroke-width: 2; stroke-dasharray: 6 5; fill: none; } .lab.old .then { opacity: .38; }
 path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
-.strip .now { position: absolute; left: -1px; top: 20px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
-.strip .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
-.at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; }
-.at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
 .say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
 .say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; } .say .small .link { min-height: 0; }
 @container (max-width: 1180px) { .outline { max-width: 230px; } }
@@ -110,7 +99,6 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
   .strip { display: contents; } .strip .plot { height: 124px; margin: 0 16px; padding-top: 8px; flex: none; }
   .starts, .paces { position: sticky; z-index: 3; top: calc(var(--top, 48px) * var(--type, 1) + var(--stage) - 58px); height: 58px; margin-top: -58px; align-self: end; align-content: start; }
   .stage, .starts, .paces { order: -1; } .starts { margin-right: 12px; } .paces { margin-right: 68px; } .clock, .again { display: none; } .speed { background: var(--ground); border-radius: 22px; padding: 0 10px; min-height: 44px; }
-  .strip .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
   .lab[data-table=three] .strip { display: grid; grid-template: "starts paces" auto "plot plot" auto / auto 1fr; } .lab[data-table=three] .strip .plot { grid-area: plot; margin: 0; }
   .lab[data-table=three] :is(.starts, .paces) { position: static; height: auto; margin: 0; align-self: center; }
   .say { grid-template-columns: 1fr; } .outline { max-width: none; } .outline span { display: inline; font-size: inherit; margin-right: 6px; }
@@ -118,15 +106,12 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 `;
 
 const answer = `
-.answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; }
-.answer .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
-.spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .energy { stroke: var(--q-energy); stroke-width: 2; }
+.answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; margin-top: 4px; } .answer :where(.energy, .own, .turning, .past) { stroke-width: 2; }
 svg .washed { stroke: var(--wash); } svg .inside { fill: var(--ground); stroke: var(--lift); }
 .answer { --wash: var(--q-energy-wash); --lift: var(--q-energy); }
 .lab.old .answer { --wash: color-mix(in srgb, var(--q-energy-wash) 38%, var(--ground)); --lift: color-mix(in srgb, var(--q-energy) 38%, var(--ground)); }
 .first { fill: none; stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
-.own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); } .turning { stroke: var(--ink); stroke-width: 2; }
-.answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
+svg .word.own { fill: var(--q-spin); } .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); }
 .readout { position: absolute; background: var(--ground); border: 1px solid var(--line-2); border-radius: 6px; padding: 2px 8px; font-size: var(--t-s); white-space: nowrap; pointer-events: none; font-variant-numeric: tabular-nums; z-index: 1; }
 .titled h2 { flex: 1; } .keeps .titled { flex-wrap: wrap; gap: 0 8px; } .keeps h2 { flex: 1 0 auto; } .icon { padding: 0; width: var(--touch); }
 .large { border: 0; padding: 24px; width: calc(100vw - 48px); height: calc(100vh - 48px); max-width: none; max-height: none; background: var(--ground); color: var(--ink); border-radius: 8px; }
@@ -166,4 +151,4 @@ ${progress}:is(.numbers, .body) { border-top: 1px solid var(--line); border-bott
 }
 `;
 
-export const style = [shared, numbers, places, stage, strip, answer, controls, framed].join("");
+export const style = [shared, numbers, timed, places, stage, strip, answer, controls, framed].join("");

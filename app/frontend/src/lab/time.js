@@ -1,13 +1,13 @@
 // The time of the Lab's pictures. The tops play by themselves on one clock; this sets when and how fast, and announces
 // the time that they show.
 import { tempo } from "./curves.js";
+import { followClock, LAB, seek } from "../figures/seeking.js";
 
-const CLOCK = "lab";
 export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 32, 1 / 64]; // in units of real time
 
 export class Time {
-  /** @param {() => void} changed t or playing has changed @param {string} name of the tops' clock */
-  constructor(changed, name = CLOCK) {
+  /** @param {() => void} changed t or playing has changed @param {AbortSignal} life @param {string} name of the tops' clock */
+  constructor(changed, life, name = LAB) {
     this.changed = changed;
     this.name = name;
     this.t = 0; // s
@@ -22,18 +22,13 @@ export class Time {
     this.events = [];
     /** @type {any[]} */
     this.tops = [];
-    this.listening = new AbortController();
-    window.addEventListener(`tippe:clock:${name}`, ({ detail }) => this.hear(detail), { signal: this.listening.signal });
+    followClock((detail) => this.hear(detail), name, life);
   }
 
   // The speed if it is at least the real one and no person chose it; 0 otherwise, and while nothing moves.
-  get fast() {
-    return this.playing && !this.chosen && this.speed >= 1 ? this.speed : 0;
-  }
+  get fast() { return this.playing && !this.chosen && this.speed >= 1 ? this.speed : 0; }
 
-  get speed() {
-    return this.chosen || tempo(this.events, this.t, this.end);
-  }
+  get speed() { return this.chosen || tempo(this.events, this.t, this.end); }
 
   hear({ t, playing }) {
     if (this.held) return;
@@ -46,7 +41,7 @@ export class Time {
   seek(t, held = false) {
     this.t = Math.min(Math.max(t, 0), this.end);
     this.held = held;
-    window.dispatchEvent(new CustomEvent(`tippe:seek:${this.name}`, { detail: { t: this.t / this.unit, held } }));
+    seek(this.t / this.unit, held, this.name);
     this.changed();
   }
 
@@ -62,9 +57,5 @@ export class Time {
   again() {
     this.seek(0, true);
     this.seek(0);
-  }
-
-  leave() {
-    this.listening.abort();
   }
 }

@@ -1,6 +1,7 @@
 // The stage in words, for those who do not see it: how far each top leans, what carries it, and how it turns.
 import { latest, SPIN, TABLES, TILT, TURNING } from "./curves.js";
-import { part, say } from "./parts.js";
+import { part, say } from "../widgets/parts.js";
+import { debounce } from "../data.js";
 
 const SAY_MS = 400; // said once nothing new has happened for this long
 const STILL = 0.05; // turns a second that are not worth a word
@@ -16,37 +17,24 @@ export function inWords(texts, { curves, run }, t) {
   return `${say(texts, leans, { tilt: [curves.at(t, TILT), 0], on })} ${say(texts, turns, { above, own })}`;
 }
 
-export class Told {
-  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
-  constructor(texts, time) {
-    this.texts = texts;
-    this.time = time;
-    /** @type {any[]} */
-    this.tops = []; // those that are shown
-    this.heard = ""; // when it was said, or what was happening
-    this.element = part("p", { class: "unseen", role: "status", "aria-label": texts.told.label });
-  }
-
-  show(scene) {
-    this.tops = (scene.table === "three" ? TABLES : [scene.table]).flatMap((name) => (
-      scene.curves[name].count && scene.runs[name] ? [{ curves: scene.curves[name], run: scene.runs[name], name: scene.table === "three" ? `${this.texts.tables[name]}: ` : "" }] : []));
-    this.heard = "";
-  }
-
-  // While it plays, it is said when the story comes to another part or something else carries the top; otherwise always.
-  /** @param {number} t in s */
-  at(t) {
-    const { time } = this, now = this.tops.map(({ run }) => [latest(run.stages, t)?.[0], latest(run.carried, t)[0]]);
-    const heard = time.playing ? JSON.stringify(now) : String(t);
-    if (heard === this.heard || time.held) return;
-    this.heard = heard;
-    clearTimeout(this.later);
-    this.later = setTimeout(() => {
-      this.element.textContent = this.tops.map((top) => top.name + inWords(this.texts, top, time.t)).join(" ");
-    }, SAY_MS);
-  }
-
-  leave() {
-    clearTimeout(this.later);
-  }
+/** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {AbortSignal} life */
+export function toldOf(texts, time, life) {
+  const element = part("p", { class: "unseen", role: "status", "aria-label": texts.told.label });
+  let tops = /** @type {any[]} */ ([]), heard = ""; // those that are shown; when it was said, or what was happening
+  const speak = debounce(() => (element.textContent = tops.map((top) => top.name + inWords(texts, top, time.t)).join(" ")), SAY_MS, life);
+  return {
+    element,
+    show({ table, curves, runs }) {
+      tops = (table === "three" ? TABLES : [table]).flatMap((name) => (
+        curves[name].count && runs[name] ? [{ curves: curves[name], run: runs[name], name: table === "three" ? `${texts.tables[name]}: ` : "" }] : []));
+      heard = "";
+    },
+    // While it plays, it is said when the story comes to another part or something else carries the top; otherwise always.
+    at(/** @type {number} */ t) {
+      const now = tops.map(({ run }) => [latest(run.stages, t)?.[0], latest(run.carried, t)[0]]), news = time.playing ? JSON.stringify(now) : String(t);
+      if (news === heard || time.held) return;
+      heard = news;
+      speak();
+    },
+  };
 }

@@ -1,6 +1,8 @@
 // A top in 3-D for the Lab: it has no bar of its own, and its model is created here.
 import { renderTop3D } from "../three/top3d.js";
-import { part } from "./parts.js";
+import { part } from "../widgets/parts.js";
+import { atEnd } from "../life.js";
+import { modelOf } from "../stand_in.js";
 
 // The Lab has its own words for these.
 const OURS = ".tippe .verdict { display: none } :host(:not([data-arrows])) .tippe .scales { display: none }" +
@@ -13,18 +15,17 @@ export const NOTHING = { ...Object.fromEntries(SHOWS.map((name) => [name, false]
 
 export class Top {
   /**
-   * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time
+   * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time @param {AbortSignal} of.life
    * @param {number} of.away distance of the camera, in units of the distance at which the whole top just fits
    * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what dragging the axis does
    * @param {Hand} [of.flick] what a flick on the top does
    * @param {number[]} [of.camera] the view that a person chose before @param {(camera: number[]) => void} [of.turned] hears of another
    */
-  constructor({ texts, label, time, away, hand, flick, camera: before = [], turned }) {
-    const listeners = new Map(), put = (changes) => this.put(changes), first = [-1.12, 0.26, away];
+  constructor({ texts, label, time, life, away, hand, flick, camera: before = [], turned }) {
+    const first = [-1.12, 0.26, away];
     let camera = before.length ? before : first;
-    this.listeners = listeners;
     this.element = part("div", { class: "top" });
-    const values = {
+    this.model = modelOf({
       texts, label, clock: time.name, now: undefined, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
       bare: true, flick, pushes: [], tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
       get camera() { return camera; },
@@ -35,14 +36,15 @@ export class Top {
       get speed() { return time.speed; },
       set speed(_) {},
       get until() { return time.end / time.unit; },
-      set tilted([theta, , , azimuth]) {
-        put({ azimuth });
-        hand?.pull((180 / Math.PI) * theta);
-      },
-      on: (name, run) => listeners.set(name, [...(listeners.get(name) ?? []), run]),
-    };
-    this.model = /** @type {any} */ (values);
+      tilted: [],
+    });
+    this.model.on("tilted", () => {
+      const [theta, , , azimuth] = this.model.tilted;
+      this.put({ azimuth });
+      hand?.pull((180 / Math.PI) * theta);
+    });
     this.view = /** @type {any} */ ({});
+    atEnd(life, () => this.view.tippe?.dispose());
   }
 
   // Draws it unless it is already drawn.
@@ -55,18 +57,10 @@ export class Top {
   }
 
   /** @param {Record<string, any>} changes */
-  put(changes) {
-    const names = Object.keys(changes).filter((name) => this.model[name] !== changes[name]);
-    for (const name of names) this.model[name] = changes[name];
-    if (this.begun) for (const name of names) for (const run of this.listeners.get(name) ?? []) run();
-  }
+  put = (changes) => void Object.assign(this.model, changes);
 
   firstView() {
     this.model.camera = [];
     this.view.tippe?.look();
-  }
-
-  leave() {
-    for (const run of this.listeners.get("remove") ?? []) run();
   }
 }

@@ -1,17 +1,20 @@
 // The paper's Fig. 4 at a moment: the section through contact and axis, and the two lever arms of a push at the
 // contact.
-import { drawn } from "../lab/parts.js";
+import { drawn, dress } from "../widgets/parts.js";
 import { float32 } from "../data.js";
-import { sectionAt } from "../figures/sections.js";
 
 /** @typedef {[number, number]} Point */
 const ROW = 6; // numbers for each moment: the axis, G, and the foot of the perpendicular to the axis, seen from the contact
+
+// A point of the outline where the axis points there; O is above the contact, which is at (0, 0).
+/** @param {Point} point @param {Point} axis @returns {Point} */
+export const turned = ([across, along], [e, f]) => [across * f + along * e, 1 - across * e + along * f];
 
 export class Arms {
   /** @param {Record<string, string>} said */
   constructor(said) {
     this.rows = new Float32Array(0);
-    this.outline = { across: /** @type {number[]} */ ([]), along: /** @type {number[]} */ ([]) };
+    this.outline = /** @type {Point[]} */ ([]); // across the axis, and along it from O
     /** @type {(point: Point) => Point} */
     this.put = (point) => point;
     this.scale = 1; // px in one R
@@ -30,9 +33,9 @@ export class Arms {
 
   /** @param {LessonRun} run @param {number} width @param {number} height */
   draw(run, width, height) {
-    const profile = float32(run.profile), radius = profile.filter((_, i) => i % 2 === 0), along = profile.filter((_, i) => i % 2);
+    const profile = float32(run.profile), side = Array.from({ length: profile.length >> 1 }, (_, i) => /** @type {Point} */ ([profile[2 * i], profile[2 * i + 1]]));
     this.rows = float32(run.arms);
-    this.outline = { across: [...radius, ...radius.map((r) => -r).reverse()], along: [...along, ...along.slice().reverse()] };
+    this.outline = [...side, ...side.map(([r, z]) => /** @type {Point} */ ([-r, z])).reverse()];
     const scale = Math.min(width / 5.4, height / 2.9), x0 = width / 2, y0 = height - 22;
     this.scale = scale;
     this.put = ([x, y]) => /** @type {Point} */ ([x0 + scale * x, y0 - scale * y]);
@@ -46,7 +49,7 @@ export class Arms {
   /** @param {any} element @param {Point} point @param {number} dx @param {number} dy @param {string} anchor */
   word(element, point, dx, dy, anchor) {
     const [x, y] = this.put(point);
-    for (const [name, value] of Object.entries({ x: x + dx, y: y + dy, "text-anchor": anchor })) element.setAttribute(name, String(value));
+    dress(element, { x: x + dx, y: y + dy, "text-anchor": anchor });
   }
 
   /** @param {number} moment a row of the run's curves */
@@ -54,15 +57,14 @@ export class Arms {
     const { rows, words, path } = this, i = ROW * Math.min(moment, rows.length / ROW - 1);
     if (i < 0) return;
     const point = (k) => /** @type {Point} */ ([rows[i + k], rows[i + k + 1]]), [axis, G, foot] = [point(0), point(2), point(4)];
-    const { x, y } = sectionAt({ axis, G, foot }, this.outline), tip = /** @type {Point} */ ([1.75 * axis[0], 1 + 1.75 * axis[1]]);
-    this.hull.setAttribute("d", `${path(...x.map((value, k) => /** @type {Point} */ ([value, y[k]])))}Z`);
-    this.axis.setAttribute("d", path([-1.2 * axis[0], 1 - 1.2 * axis[1]], tip));
-    this.upwards.setAttribute("d", path([G[0], 0], [G[0], 2.3]));
-    this.own.setAttribute("d", path([0, 0], foot));
-    this.upright.setAttribute("d", path([0, 0.02], [G[0], 0.02]));
-    for (const [shape, at] of /** @type {[any, Point][]} */ ([[this.mass, G], [this.push, [0, 0]]])) {
-      shape.setAttribute("transform", `translate(${this.put(at).map((v) => v.toFixed(1)).join(" ")})`);
-    }
+    const tip = /** @type {Point} */ ([1.75 * axis[0], 1 + 1.75 * axis[1]]);
+    dress(this.hull, { d: `${path(...this.outline.map((each) => turned(each, axis)))}Z` });
+    dress(this.axis, { d: path([-1.2 * axis[0], 1 - 1.2 * axis[1]], tip) });
+    dress(this.upwards, { d: path([G[0], 0], [G[0], 2.3]) });
+    dress(this.own, { d: path([0, 0], foot) });
+    dress(this.upright, { d: path([0, 0.02], [G[0], 0.02]) });
+    dress(this.mass, { transform: `translate(${this.put(G).join(" ")})` });
+    dress(this.push, { transform: `translate(${this.put([0, 0]).join(" ")})` });
     const clear = 14 / this.scale; // px above the line of the table, in R
     const side = G[0] <= 0 ? 1 : -1, [near, far] = side > 0 ? ["start", "end"] : ["end", "start"];
     this.word(words.push, [0, 0], 0, 20, "middle");

@@ -1,7 +1,7 @@
 // The time, and the tilt as far as it has been seen: play, and drag anywhere. What comes after the guess is hidden.
 import { digitsOf, ticks, TILT } from "../lab/curves.js";
 import { FOOT, LEFT, levels, marks, TimeLine, times } from "../lab/line.js";
-import { drawn, part, say } from "../lab/parts.js";
+import { drawn, part, say } from "../widgets/parts.js";
 import { DASHES } from "./stage.js";
 
 const TOP = 20, LETTER = 6.6; // px
@@ -11,12 +11,10 @@ export class Bar extends TimeLine {
   constructor(texts, time) {
     super(texts, time, { label: texts.lesson.time, step: "any" });
     this.note = part("p", { class: "small" });
-    this.element = part("section", { class: "bar", "aria-label": texts.lesson.bar }, this.play, this.plot, this.note);
+    this.element = part("section", { class: "bar timeline", "aria-label": texts.lesson.bar }, this.play, this.plot, this.note);
   }
 
-  get whole() {
-    return this.scene.step.end;
-  }
+  get whole() { return this.scene.step.end; }
 
   show(scene) {
     this.scene = scene;

@@ -2,7 +2,7 @@
 import { onBoth } from "../colours.js";
 import { digitsOf, ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../lab/curves.js";
 import { levels, marks as marksOf, times } from "../lab/line.js";
-import { drawn, part, say } from "../lab/parts.js";
+import { drawn, dress, part, say } from "../widgets/parts.js";
 import { float32 } from "../data.js";
 import { Arms } from "./arms.js";
 
@@ -39,8 +39,7 @@ export class Graph {
     this.plot = part("div", { class: "plot" }, this.drawing);
     this.below = part("p", { class: "axis-name" });
     this.element = part("section", { class: "picture" }, this.title, this.plot, this.below);
-    this.resizing = new ResizeObserver(() => this.draw());
-    this.resizing.observe(this.plot);
+    new ResizeObserver(() => this.draw()).observe(this.plot);
   }
 
   show(scene) {
@@ -133,9 +132,7 @@ export class Graph {
     ends.forEach((end, i) => i && end.py - ends[i - 1].py < CLOSE && ends[i - 1].y < ends[i - 1].py && (end.y = end.py + 16));
     for (const { word, px, y: py } of apart(found, TOP + 8, bottom - 6)) {
       const after = px < middle;
-      word.element.setAttribute("x", String(after ? px + 8 : px - 8));
-      word.element.setAttribute("y", String(py));
-      word.element.setAttribute("text-anchor", after ? "start" : "end");
+      dress(word.element, { x: after ? px + 8 : px - 8, y: py, "text-anchor": after ? "start" : "end" });
     }
   }
 
@@ -154,16 +151,11 @@ export class Graph {
     if (this.kind === "arms") return this.arms.at(scene.curves[0].row(t));
     const { x, time, clip, right } = this.scale, seen = scene.record.seen, end = scene.step.end;
     if (time) {
-      const to = x(Math.min(seen, end));
-      clip.setAttribute("width", String(to));
-      this.covering.setAttribute("x", String(to));
-      this.covering.setAttribute("width", String(Math.max(right - to, 0)));
-      for (const name of ["x1", "x2"]) this.now.setAttribute(name, String(x(Math.min(t, end))));
+      const to = x(Math.min(seen, end)), now = x(Math.min(t, end));
+      dress(clip, { width: to });
+      dress(this.covering, { x: to, width: Math.max(right - to, 0) });
+      dress(this.now, { x1: now, x2: now });
     }
     this.place(time ? seen : Infinity);
-  }
-
-  leave() {
-    this.resizing.disconnect();
   }
 }

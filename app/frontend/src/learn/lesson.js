@@ -1,17 +1,18 @@
 // The lesson, step by step: a question about a top after a short look at it, and the answer after the rest of the run.
 // Python sends the words and the runs; once they are there, the page needs no server.
-import { followLook } from "../controls/look.js";
+import { follow, followLook, lifeOf } from "../life.js";
 import { Curves } from "../lab/curves.js";
-import { part } from "../lab/parts.js";
+import { part } from "../widgets/parts.js";
 import { Time } from "../lab/time.js";
 import { ask, coalesce } from "../data.js";
 import { Bar } from "./bar.js";
 import { Graph } from "./graph.js";
-import { PhoneSide } from "./phone_side.js";
-import { hideOthers, Presenter, wishOf, writes } from "./present.js";
+import { phoneSide } from "./phone_side.js";
+import { hideOthers, Presenter, wishOf } from "./present.js";
 import { Question } from "./question.js";
 import { Stage } from "./stage.js";
 import { style } from "./style.js";
+import { isWriting } from "../widgets/press.js";
 import { save } from "../widgets/saving.js";
 
 const SECTIONS = ["derivation", "published", "teach", "history"];
@@ -19,8 +20,8 @@ const NEARLY = 0.03, LONG = 3; // s: this close to the end counts as the end; a 
 
 class Lesson {
   /** @param {Rendering<LessonModel>} rendering */
-  constructor({ model, el }) {
-    const { texts } = model;
+  constructor(rendering) {
+    const { model, el } = rendering, { texts } = model, life = lifeOf(rendering);
     this.model = model;
     this.texts = texts;
     this.count = 0;
@@ -28,10 +29,10 @@ class Lesson {
     this.kept = {}; // by step, as long as the page is open
     /** @type {Map<Bytes, Curves>} */
     this.read = new Map();
-    this.time = new Time(coalesce(() => this.at()), "lesson");
+    this.time = new Time(coalesce(() => this.at(), life), life, "lesson");
     this.crumbs = part("ol", { class: "crumbs", "aria-label": texts.lesson.steps });
     this.heading = part("h2", { class: "question" });
-    this.stage = new Stage(texts, this.time);
+    this.stage = new Stage(texts, this.time, life);
     this.bar = new Bar(texts, this.time);
     this.question = new Question(texts, {
       guess: (value) => this.guess(value), watch: () => this.watch(), skip: () => this.skip(), next: () => this.go(1), lab: () => this.ask("lab", ""),
@@ -39,19 +40,20 @@ class Lesson {
     this.graph = new Graph(texts);
     this.presenting = this.lost = this.back = false;
     this.presenter = new Presenter(texts, (wish) => this.does(wish));
-    this.phone = new PhoneSide(texts, (name, value) => this.ask(name, value), () => this.replay());
+    this.phone = phoneSide(texts, (name, value) => this.ask(name, value), () => this.replay());
     this.more = part("nav", { class: "more", "aria-label": texts.lesson.more });
     this.right = part("div", { class: "right" }, this.question.element, this.graph.element);
     this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element, this.right,
       this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.phone.follows, this.more);
     this.frame = part("div", { class: "frame", tabindex: -1 }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
-    this.unfollow = followLook(this.frame, () => this.draw());
-    this.show = coalesce(() => this.showNow());
+    followLook(this.frame, life, () => this.draw());
+    this.show = coalesce(() => this.showNow(), life);
+    this.listen(life);
   }
 
-  listen() {
-    const listening = (this.listening = new AbortController()), { signal } = listening;
+  /** @param {AbortSignal} signal its life */
+  listen(signal) {
     window.addEventListener("tippe:lost", this.onLost, { signal });
     window.addEventListener("tippe:back", this.onLost, { signal });
     // captured before a focused tab of the head can use an arrow key for itself
@@ -65,13 +67,9 @@ class Lesson {
   }
 
   // The steps of the part that is shown: the lesson, or the part for theorists.
-  get steps() {
-    return this.model.steps.filter(({ theory }) => theory === this.step?.theory);
-  }
+  get steps() { return this.model.steps.filter(({ theory }) => theory === this.step?.theory); }
 
-  get record() {
-    return (this.kept[this.step.name] ??= { seen: 0 });
-  }
+  get record() { return (this.kept[this.step.name] ??= { seen: 0 }); }
 
   go(by) {
     const next = this.steps[this.steps.indexOf(this.step) + by];
@@ -91,18 +89,14 @@ class Lesson {
     this.showQuestion();
   }
 
-  get role() {
-    return this.model.state.role ?? "";
-  }
+  get role() { return this.model.state.role ?? ""; }
 
-  get room() {
-    return this.model.state.room ?? {};
-  }
+  get room() { return this.model.state.room ?? {}; }
 
   // ---- in front of a class ----
 
   onKey = (event) => {
-    if (this.role === "phone" || !this.frame.getClientRects().length || writes(event)) return;
+    if (this.role === "phone" || !this.frame.getClientRects().length || isWriting(event)) return;
     const wish = wishOf(event, this.presenting);
     if (!wish) return;
     event.preventDefault();
@@ -193,7 +187,7 @@ class Lesson {
 
   showNow() {
     const { model } = this, asked = model.state.step;
-    if (this.role === "phone") this.phone.put(model.state, this.texts);
+    if (this.role === "phone") this.phone.put(model.state);
     if (!model.steps.length || !asked) return;
     if (model.state.presents && model.state.presents !== this.presents) {
       this.presents = model.state.presents;
@@ -293,9 +287,7 @@ class Lesson {
       this.link(lesson.worksheet, () => this.paper()), this.link(lesson.room.present, () => this.present(true)));
   }
 
-  link(word, onclick) {
-    return part("button", { type: "button", class: "link", onclick }, word);
-  }
+  link(word, onclick) { return part("button", { type: "button", class: "link", onclick }, word); }
 
   // Opens a page to print in a new window, or saves it where there may be none; it needs no server.
   paper() {
@@ -325,22 +317,9 @@ class Lesson {
     this.bar.at(time.t);
     this.graph.at(time.t);
   }
-
-  leave() {
-    this.show.cancel();
-    this.unfollow();
-    for (const gone of [this.time, this.stage, this.bar, this.graph]) gone.leave();
-    this.listening?.abort();
-  }
 }
 
 /** @param {Rendering<LessonModel>} rendering */
-export function renderLesson({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
-  const lesson = new Lesson({ model, el, view });
-  for (const name of ["steps", "runs", "others", "state"]) model.on(name, lesson.show);
-  lesson.listen();
-  lesson.show();
-  view.tippe = { dispose: () => lesson.leave() };
-  model.on("remove", () => lesson.leave());
+export function renderLesson(rendering) {
+  follow(rendering.model, ["steps", "runs", "others", "state"], new Lesson(rendering).show);
 }

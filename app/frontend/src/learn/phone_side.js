@@ -1,34 +1,25 @@
 // A phone in a class: the number of the question, that its vote was sent, how many have voted, and the way to the
 // lesson alone.
-import { part, say } from "../lab/parts.js";
+import { part, say } from "../widgets/parts.js";
 
-export class PhoneSide {
-  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} replay */
-  constructor(texts, ask, replay) {
-    const { room } = texts.lesson;
-    this.which = part("span", { class: "small" });
-    this.head = part("header", { class: "phone-head" }, part("b", {}, room.title), this.which,
-      part("button", { type: "button", class: "round", "aria-label": texts.again_hint, onclick: replay }, "↺"));
-    this.count = part("p", { role: "status" });
-    this.said = part("p", { role: "alert" });
-    this.again = part("button", { type: "button", class: "primary", onclick: () => ask("again", "") }, room.again);
-    this.alone = part("a", { target: "_blank" }, room.alone);
-    this.foot = part("div", { class: "phone-foot" }, this.count, this.said, this.again);
-    this.follows = part("footer", { class: "follows" }, part("span", { class: "small" }, room.follows), this.alone);
-  }
-
-  /** @param {any} state @param {Record<string, any>} texts */
-  put({ room, said, again, alone }, texts) {
-    const words = texts.lesson.room, open = Boolean(room?.code);
-    const mine = open && room.mine !== null && room.mine !== undefined;
-    this.which.textContent = open ? say(texts, words.which, { code: room.code, i: room.place }) : "";
-    this.said.textContent = said;
-    this.again.hidden = !again;
-    this.alone.href = alone;
-    this.count.replaceChildren(...(open ? [part("b", {}, `${room.voted} ${say(texts, words.voted, { phones: room.phones })}.`), " ",
-      room.shown ? words.shown : mine ? words.change : words.vote] : []));
-    const lesson = this.head.parentElement;
-    lesson?.classList.toggle("empty", !open);
-    lesson?.style.setProperty("--sent", mine ? JSON.stringify(words.sent) : "none"); // shown beside the chosen answer
-  }
+/** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} replay */
+export function phoneSide(texts, ask, replay) {
+  const words = texts.lesson.room, which = part("span", { class: "small" }), count = part("p", { role: "status" }), said = part("p", { role: "alert" });
+  const again = part("button", { type: "button", class: "primary", onclick: () => ask("again", "") }, words.again), alone = part("a", { target: "_blank" }, words.alone);
+  const head = part("header", { class: "phone-head" }, part("b", {}, words.title), which,
+    part("button", { type: "button", class: "round", "aria-label": texts.again_hint, onclick: replay }, "↺"));
+  return {
+    head, foot: part("div", { class: "phone-foot" }, count, said, again), follows: part("footer", { class: "follows" }, part("span", { class: "small" }, words.follows), alone),
+    put(/** @type {any} */ { room, ...state }) {
+      const open = Boolean(room?.code), mine = open && room.mine !== null && room.mine !== undefined;
+      which.textContent = open ? say(texts, words.which, { code: room.code, i: room.place }) : "";
+      said.textContent = state.said;
+      again.hidden = !state.again;
+      alone.href = state.alone;
+      count.replaceChildren(...(open ? [part("b", {}, `${room.voted} ${say(texts, words.voted, { phones: room.phones })}.`), " ",
+        room.shown ? words.shown : mine ? words.change : words.vote] : []));
+      head.parentElement?.classList.toggle("empty", !open);
+      head.parentElement?.style.setProperty("--sent", mine ? JSON.stringify(words.sent) : "none"); // shown beside the chosen answer
+    },
+  };
 }

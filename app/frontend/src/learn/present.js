@@ -1,6 +1,6 @@
 // The big screen in front of a class: the question and its top fill it, phones vote, and the votes stay hidden until
 // the answer.
-import { part, say } from "../lab/parts.js";
+import { part, say } from "../widgets/parts.js";
 
 const LETTERS = "ABCDEFGH";
 const KEYS = [["←", "back"], ["→", "on"], ["Space", "play"], ["Alt+R", "reveal"], ["Alt+0", "reset"], ["Esc", "leave"]];
@@ -14,11 +14,6 @@ export function wishOf(event, presenting) {
   if (letter || !presenting || altKey || !isAlone) return letter || "";
   return { ArrowLeft: "back", ArrowRight: "on", " ": "play", Escape: "leave" }[key] ?? "";
 }
-
-// Whether a person is typing, so that a letter is not a command.
-/** @param {KeyboardEvent} event */
-export const writes = (event) => /** @type {Element[]} */ (event.composedPath()).some((node) =>
-  node.matches?.("input:not([type=radio]):not([type=range]), textarea, select, [contenteditable]"));
 
 // What the big screen covers is not there for a keyboard or a screen reader either.
 /** @param {HTMLElement} frame @param {boolean} hidden */

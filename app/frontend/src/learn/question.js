@@ -1,5 +1,5 @@
 // The question of a step: the possible guesses and, after the answer has been watched, the right one and why.
-import { part, say } from "../lab/parts.js";
+import { part, say, typeset } from "../widgets/parts.js";
 
 // How a guess compares with the truth.
 /** @param {any} asks @param {any} truth @param {any} guess */
@@ -113,18 +113,12 @@ export class Question {
     const found = [part("p", { class: "big" }, lesson[verdict]), row(lesson.truth, this.word(step.truth))];
     if (verdict !== "right" && verdict !== "unsure") found.splice(1, 0, row(lesson.yours, this.word(record.guess)));
     found.push(...step.told.map((words) => html(words, "")));
-    if (step.tex.length) found.push(part("div", { class: "equations" }, ...step.tex.map(typeset)));
+    if (step.tex.length) found.push(part("div", { class: "equations" }, ...step.tex.map((tex) => typeset(tex, { class: "equation" }))));
     const learned = html(step.learned, "");
     learned.prepend(part("b", {}, `${lesson.learned}: `));
     found.push(part("div", { class: "learned" }, learned));
     if (step.sources.length) found.push(part("details", { class: "small" }, part("summary", {}, `${lesson.read}: ${step.sources.map(([, short]) => short).join(" · ")}`), ...step.sources.map(([, , full]) => html(full, ""))));
+    if (step.opens && lesson.open) found.push(part("a", { class: "link", href: step.opens, target: "_blank" }, lesson.open)); // beside the lesson, which goes on
     return found;
   }
-}
-
-function typeset(tex) {
-  const line = part("div", { class: "equation", tabindex: 0 });
-  if (window.katex) window.katex.render(`\\displaystyle ${tex}`, line, { output: "mathml", throwOnError: false });
-  else line.textContent = tex;
-  return line;
 }

@@ -1,6 +1,6 @@
 // The tops of a step, side by side, with their names below, and what the first one is doing.
 import { latest, TILT } from "../lab/curves.js";
-import { drawn, part, say } from "../lab/parts.js";
+import { drawn, part, say } from "../widgets/parts.js";
 import { Top } from "../lab/top.js";
 import { Ways } from "./ways.js";
 
@@ -8,8 +8,8 @@ const MOST = 3;
 export const DASHES = ["", "7 4", "2 4"]; // stroke patterns of their curves
 
 export class Stage {
-  /** @param {Record<string, any>} texts @param {import("../lab/time.js").Time} time */
-  constructor(texts, time) {
+  /** @param {Record<string, any>} texts @param {import("../lab/time.js").Time} time @param {AbortSignal} life */
+  constructor(texts, time, life) {
     this.texts = texts;
     this.step = /** @type {any} */ ({});
     /** @type {any[]} */
@@ -17,7 +17,7 @@ export class Stage {
     /** @type {string[]} */
     this.names = [];
     // a single top is drawn close, several a little farther away
-    this.tops = Array.from({ length: 1 + MOST }, (_, i) => new Top({ texts, time, label: texts.stage, away: i ? 1.5 : 1.3 }));
+    this.tops = Array.from({ length: 1 + MOST }, (_, i) => new Top({ texts, time, life, label: texts.stage, away: i ? 1.5 : 1.3 }));
     this.captions = this.tops.map(() => part("p", { class: "caption" }));
     this.covers = this.tops.map(() => part("p", { class: "cover" }, texts.lesson.later));
     this.places = this.tops.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i], this.covers[i]));
@@ -56,9 +56,5 @@ export class Stage {
     this.pill.hidden = !word;
     if (!this.ways.element.hidden) this.ways.at(this.curves[0], t);
     if (word) this.pill.textContent = say(texts, this.isAsked ? texts.lesson.pill : texts.lesson.pill_before, { word, tilt: [this.curves[0].at(t, TILT), 0] }); // the word gives the answer away
-  }
-
-  leave() {
-    for (const top of this.tops) top.leave();
   }
 }

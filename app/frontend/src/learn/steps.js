@@ -1,5 +1,5 @@
 // Cohen's top by several laws of friction, and by Coulomb's in steps whose length a slider chooses.
-import { drawn, part, say } from "../lab/parts.js";
+import { drawn, part, say } from "../widgets/parts.js";
 import { coalesce } from "../data.js";
 import { frame } from "../controls/frame.js";
 import { Graph } from "./graph.js";
@@ -33,7 +33,6 @@ export function renderSteps(rendering) {
   const swatch = (colour, dash) => drawn("svg", { class: "swatch", viewBox: "0 0 26 8", "aria-hidden": "true" },
     drawn("path", { class: "line", d: "M1 4H25", stroke: colour, "stroke-dasharray": { dashed: "7 4", dotted: "2 4" }[dash] }));
   model.on("curves", showing);
-  model.on("remove", () => graph.leave());
-  frame(rendering, style, graph.element, label, list).classList.add("steps");
+  frame(rendering, style, part("div", { class: "steps" }, graph.element, label, list));
   show();
 }

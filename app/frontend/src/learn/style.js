@@ -1,7 +1,7 @@
 // The style of the lesson: the question on top, a large picture of the top, and beside it the possible guesses and the
 // graph.
 import { colours } from "../colours.js";
-import { shared } from "../controls/style.js";
+import { shared, timed } from "../controls/style.js";
 
 const places = `
 .frame:focus { outline: 0; } .frame { --head: calc(var(--top, 48px) * var(--type, 1)); scroll-margin-top: var(--head); }
@@ -14,24 +14,16 @@ const places = `
 .crumbs .done b { background: var(--ink-2); color: var(--ground); box-shadow: none; }
 .crumbs [aria-current] { color: var(--accent); font-weight: 600; } .crumbs [aria-current] b { background: var(--accent); color: var(--ground); box-shadow: none; }
 .question { grid-area: question; font-size: 28px; line-height: 1.2; letter-spacing: -.02em; text-wrap: balance; }
-.stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
-.tops { position: absolute; inset: 0; display: flex; } .place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
-.pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .caption, .cover { position: absolute; left: 0; right: 0; text-align: center; color: var(--scene-ink); padding: 0 8px; pointer-events: none; }
 .caption { bottom: 14px; font-weight: 600; } .caption svg { display: inline-block; vertical-align: 2px; margin-right: 4px; } .cover { top: 45%; }
 .wait { position: absolute; left: 16px; right: 16px; top: 45%; text-align: center; }
 .waits :is(.pill, .tops) { visibility: hidden; }
 .bar { grid-area: bar; display: grid; grid-template-columns: 48px minmax(0, 1fr); gap: 0 8px; align-items: center; align-content: start; min-width: 0; }
 .bar.none { visibility: hidden; }
-.bar .plot { position: relative; height: 108px; cursor: pointer; touch-action: pan-y; user-select: none; } .bar .small { grid-column: 1 / -1; min-height: 1.45em; }
-.plot svg { position: absolute; inset: 0; width: 100%; height: 100%; } .event { stroke: var(--line-2); stroke-dasharray: 2 3; }
-.bar .rest { stroke: var(--line-2); stroke-width: 1.5; } .bar .past { stroke: var(--ink); stroke-width: 2.2; }
+.bar .plot { height: 108px; } .bar .small { grid-column: 1 / -1; min-height: 1.45em; }
 .covered { fill: color-mix(in srgb, var(--ink) 7%, var(--ground)); } svg .covered + .word { font-weight: 400; fill: var(--ink-2); }
-.bar .now { position: absolute; left: -1px; top: 10px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
-.bar .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
-.at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; } .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
 .side { display: flex; flex-direction: column; gap: 10px; min-width: 0; }
-.picture { min-width: 0; flex: 1; display: flex; flex-direction: column; max-height: 330px; } .picture .plot { position: relative; flex: 1; min-height: 170px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
+.picture { min-width: 0; flex: 1; display: flex; flex-direction: column; max-height: 330px; } .picture .plot { flex: 1; min-height: 170px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
 .ways { position: absolute; top: 12px; right: 12px; display: grid; gap: 4px; } .ways figure { margin: 0; text-align: center; } .ways svg { width: 76px; height: 76px; margin: 0 auto; } .ways figcaption { font-size: var(--t-s); color: var(--scene-ink); }
 .ways .rim { fill: color-mix(in srgb, var(--ground) 75%, transparent); stroke: var(--line-2); } .ways .line { stroke-width: 4; } .tip.own { fill: var(--q-spin); } .tip.turning { fill: var(--ink); }
 .axis-name { text-align: right; font-size: var(--t-s); color: var(--ink-2); } .axis-name:empty { display: none; }
@@ -53,13 +45,13 @@ fieldset { border: 0; margin: 0; padding: 0; display: grid; gap: 8px; min-width:
 .told { display: grid; gap: 8px; } .told:empty { display: none; } .learned { border-left: 4px solid var(--accent); padding-left: 12px; }
 .equation { overflow-x: auto; overflow-y: hidden; padding: 4px 0 6px; } .equations { display: grid; gap: 4px; } math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math; }
 details > summary { cursor: pointer; min-height: 24px; } details p { margin: 4px 0; }
-.end { display: grid; gap: 8px; justify-items: start; } .end:empty { display: none; } .end ol { margin: 0; padding-left: 20px; display: grid; gap: 4px; }
+a.link { color: inherit; justify-self: start; display: flex; align-items: center; min-height: var(--touch); } .end { display: grid; gap: 8px; justify-items: start; } .end:empty { display: none; } .end ol { margin: 0; padding-left: 20px; display: grid; gap: 4px; }
 `;
 
 const drawings = `
-.line { fill: none; stroke-width: 2; stroke-linejoin: round; } .own { stroke: var(--q-spin); } .turning { stroke: var(--ink); } .energy { stroke: var(--q-energy); } .first { stroke: var(--line-2); }
+path.line { fill: none; stroke-width: 2; stroke-linejoin: round; } .first { stroke: var(--line-2); }
 svg text.own { fill: var(--q-spin); stroke: none; } svg text { stroke: none; } svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; }
-.spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .picture .now { stroke: var(--accent); stroke-width: 2; } .mark { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
+.picture .now { stroke: var(--accent); stroke-width: 2; } .mark { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
 .hull { fill: color-mix(in srgb, ${colours.wood} 45%, var(--ground)); stroke: var(--q-energy); } .table { stroke: var(--ink); stroke-width: 1.5; } .thin { stroke: var(--line-2); stroke-dasharray: 5 4; fill: none; }
 .arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--q-jellett); } svg text.upright { fill: var(--q-jellett); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
 `;
@@ -106,10 +98,10 @@ const small = `
   .lesson[data-picture=arms]:not(.present) .stage { display: none; }
   .lesson[data-picture=arms]:not(.present) .bar .round { top: calc(-4px - var(--stage)); }
   .picture { order: 6; flex: none; } [data-picture=arms] .picture { order: 1; position: sticky; top: var(--head); z-index: 2; background: var(--ground); } [data-picture=arms] .picture .plot { height: calc(var(--stage) - 28px); } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 3; font-size: 20px; } .side > * { order: 4; } .side > .dock { order: 8; } .more { order: 7; }
-  .side :is(input, button) { scroll-margin: calc(var(--head) + var(--stage) + 16px) 0 84px; }
+  .side :is(input, button, a) { scroll-margin: calc(var(--head) + var(--stage) + 16px) 0 84px; }
   .side > .dock { position: sticky; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }
-  .caption { bottom: auto; top: 4px; font-size: var(--t-s); padding: 0 4px; line-height: 1.2; } .cover { top: 52%; font-size: var(--t-s); } .ways { top: 6px; left: 6px; right: 6px; display: flex; justify-content: space-between; } .ways figure { width: 84px; } .ways svg { width: 60px; height: 60px; } .ways figcaption { line-height: 1; } .bar .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
+  .caption { bottom: auto; top: 4px; font-size: var(--t-s); padding: 0 4px; line-height: 1.2; } .cover { top: 52%; font-size: var(--t-s); } .ways { top: 6px; left: 6px; right: 6px; display: flex; justify-content: space-between; } .ways figure { width: 84px; } .ways svg { width: 60px; height: 60px; } .ways figcaption { line-height: 1; }
 }
 `;
 
-export const style = [shared, places, asked, drawings, present, steps, small].join("");
+export const style = [shared, timed, places, asked, drawings, present, steps, small].join("");

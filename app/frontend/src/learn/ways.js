@@ -1,7 +1,7 @@
 // Which way a top turns, seen from above and from its stem: two circles, each with an arrow whose length shows how
 // fast.
 import { SPIN, TURNING } from "../lab/curves.js";
-import { drawn, part, say } from "../lab/parts.js";
+import { drawn, part, say } from "../widgets/parts.js";
 
 const SIZE = 64, R = 24, MOST = 300, HEAD = 9; // px, px, degrees, px
 

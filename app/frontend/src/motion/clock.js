@@ -1,5 +1,7 @@
 // Connects a top to its clock. Tops of the same clock play together; a top without a clock name has one to itself, or
 // is the last on the nameless clock. Other parts of the page use events; docs/architecture.md lists them.
+import { debounce } from "../data.js";
+import { atEnd } from "../life.js";
 import { Player } from "./player.js";
 
 const TELL_MS = 80; // ms between two times that are sent to Python while scrubbing
@@ -15,7 +17,7 @@ const leaderOf = (name) => on(name).find(({ inView, player }) => inView() && pla
 export const timeOf = (clock = "") => leaderOf(clock)?.player.t ?? 0;
 
 /** The reports of the tops of a clock, for tests. @param {string} clock */
-export const topsOf = (clock) => on(clock).map((place) => place.report);
+export const topsOf = (clock) => on(clock).map((place) => place.report());
 
 /** The tops of a clock that have a motion, also out of sight. @param {string} clock */
 export const filmedOn = (clock) => on(clock).filter(({ picture, player }) => picture.clientWidth && player.frames.count);
@@ -34,9 +36,10 @@ export class Place {
    * @param {() => void} top.changed called when t or playing has changed
    * @param {() => boolean} top.inView whether it is visible
    * @param {(wide: number) => HTMLCanvasElement} top.photo
-   * @param {object} top.report what is drawn, for tests
+   * @param {() => object} top.report what is drawn, for tests
+   * @param {AbortSignal} top.life
    */
-  constructor({ model, picture, changed, inView, photo, report }) {
+  constructor({ model, picture, changed, inView, photo, report, life }) {
     this.model = model;
     this.picture = picture;
     this.inView = inView;
@@ -53,47 +56,39 @@ export class Place {
       playingChanged: () => (model.playing = this.player.playing),
       until: () => model.until,
     });
-    const { player } = this, listening = new AbortController(), { signal } = listening;
-    this.listening = listening;
+    const { player } = this;
+    // Tells Python where it rests.
+    this.tellTime = debounce(() => {
+      if (!player.playing && !player.held && model.time !== player.t) model.time = player.t;
+    }, TELL_MS, life);
     model.on("time", () => {
       // Ignore the echo of the time that we sent ourselves, or scrubbing would jump back.
       if (Math.abs(model.time - player.t) > 1e-9 * Math.max(1, Math.abs(player.t))) player.seek(model.time);
     });
     model.on("playing", () => player.setPlaying(model.playing));
-    window.addEventListener(`tippe:seek${this.suffix}`, ({ detail: { t, held } }) => player.seek(t, held), { signal });
+    window.addEventListener(`tippe:seek${this.suffix}`, ({ detail: { t, held } }) => player.seek(t, held), { signal: life });
     // Keys of the page act on the leading top if it is on the page.
     const onCommand = ({ detail: { toggle, step } }) => {
       if (!picture.clientWidth || !this.leads) return;
       if (toggle) player.setPlaying(!player.playing);
       else player.step(step);
     };
-    window.addEventListener("tippe:command", onCommand, { signal });
+    window.addEventListener("tippe:command", onCommand, { signal: life });
     clocks.set(this.name, [...on(this.name), this]);
+    atEnd(life, () => clocks.set(this.name, on(this.name).filter((other) => other !== this)));
   }
 
-  get suffix() {
-    return this.name ? `:${this.name}` : "";
-  }
+  get suffix() { return this.name ? `:${this.name}` : ""; }
 
-  get isSeen() {
-    return this.inView() && this.picture.clientWidth > 0 && this.player.frames.count > 0;
-  }
+  get isSeen() { return this.inView() && this.picture.clientWidth > 0 && this.player.frames.count > 0; }
 
-  get others() {
-    return this.name ? on(this.name).filter((other) => other !== this) : [];
-  }
+  get others() { return this.name ? on(this.name).filter((other) => other !== this) : []; }
 
-  get leader() {
-    return this.name ? leaderOf(this.name) : this;
-  }
+  get leader() { return this.name ? leaderOf(this.name) : this; }
 
-  get leads() {
-    return this.leader === this;
-  }
+  get leads() { return this.leader === this; }
 
-  get moves() {
-    return this.player.playing && this.player.frames.count > 1;
-  }
+  get moves() { return this.player.playing && this.player.frames.count > 1; }
 
   // Takes over the time of the other tops, or Python's; to be called once, with the first motion.
   begin() {
@@ -144,19 +139,5 @@ export class Place {
       if (other.player.t !== player.t) other.player.seek(player.t);
       other.echo = false;
     }
-  }
-
-  tellTime() {
-    clearTimeout(this.told);
-    this.told = setTimeout(() => {
-      const { model, player } = this;
-      if (!player.playing && !player.held && model.time !== player.t) model.time = player.t;
-    }, TELL_MS);
-  }
-
-  leave() {
-    clearTimeout(this.told);
-    this.listening.abort();
-    clocks.set(this.name, on(this.name).filter((other) => other !== this));
   }
 }

@@ -1,4 +1,6 @@
 // What can be filmed: the Labs on the page; and which of its moments a film shows.
+import { atEnd } from "../life.js";
+
 const SAME = 1e-6; // s
 export const WIDE = 1280, HIGH = 720; // px
 
@@ -9,10 +11,10 @@ const labs = new Set(); // that are on the page
 /** The Lab that is in sight. */
 export const labInSight = () => [...labs].find(({ element, scene }) => element.clientWidth && scene?.end);
 
-/** Says that a Lab is on the page, until the returned function is called. @param {Filmed} lab */
-export function canBeFilmed(lab) {
+/** Says that a Lab is on the page. @param {Filmed} lab @param {AbortSignal} life */
+export function canBeFilmed(lab, life) {
   labs.add(lab);
-  return () => void labs.delete(lab);
+  atEnd(life, () => labs.delete(lab));
 }
 
 // The times in s at which a film has its pictures.

@@ -32,28 +32,18 @@ export class Frames {
     }
   }
 
-  get start() {
-    return this.count ? this.time(0) : 0;
-  }
+  get start() { return this.count ? this.time(0) : 0; }
 
-  get end() {
-    return this.count ? this.time(this.count - 1) : 0;
-  }
+  get end() { return this.count ? this.time(this.count - 1) : 0; }
 
   /** @param {number} i */
-  time(i) {
-    return this.rows[i * WIDTH + T];
-  }
+  time(i) { return this.rows[i * WIDTH + T]; }
 
   /** @param {number} i @returns {number} rad */
-  theta(i) {
-    return this.rows[i * WIDTH + THETA];
-  }
+  theta(i) { return this.rows[i * WIDTH + THETA]; }
 
   /** @param {number} i @returns {[number, number]} */
-  contact(i) {
-    return [this.rows[i * WIDTH + CONTACT], this.rows[i * WIDTH + CONTACT + 1]];
-  }
+  contact(i) { return [this.rows[i * WIDTH + CONTACT], this.rows[i * WIDTH + CONTACT + 1]]; }
 
   /** @param {number} i @param {Put} put */
   com(i, put) {
@@ -72,9 +62,7 @@ export class Frames {
   }
 
   /** @param {number} t */
-  nearest(t) {
-    return Math.round(this.place(t));
-  }
+  nearest(t) { return Math.round(this.place(t)); }
 
   // The greatest length of a vector over all rows, which sets the scale of its arrow.
   largest(column) {

@@ -23,13 +23,9 @@ export class Player {
     this.playing = false;
   }
 
-  get place() {
-    return this.frames.count ? this.frames.place(this.t) : 0;
-  }
+  get place() { return this.frames.count ? this.frames.place(this.t) : 0; }
 
-  get index() {
-    return Math.floor(this.place);
-  }
+  get index() { return Math.floor(this.place); }
 
   // Where playing ends; Infinity if it repeats.
   get last() {
@@ -127,9 +123,7 @@ export class Player {
 
   // Where a paused motion stands for a time: on a frame if it repeats, else there, also between two frames.
   /** @param {number} t */
-  stand(t) {
-    return this.last < Infinity ? this.within(t) : this.frames.time(this.frames.nearest(t));
-  }
+  stand(t) { return this.last < Infinity ? this.within(t) : this.frames.time(this.frames.nearest(t)); }
 
   /** @param {number} index */
   land(index) {

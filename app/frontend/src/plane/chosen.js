@@ -1,5 +1,5 @@
 // The selected motion: its tieline in the plane, the same in the plot of K_R, and the bead on both.
-import { drawn } from "../widgets/parts.js";
+import { drawn, dress } from "../widgets/parts.js";
 /** @import { Plot } from "./scales.js" */
 
 const parts = () => ({
@@ -8,14 +8,8 @@ const parts = () => ({
   bead: drawn("circle", { class: "bead", r: 7 }),
 });
 
-function put(line, x1, x2, y1, y2 = y1) {
-  for (const [name, value] of Object.entries({ x1, x2, y1, y2 })) line.setAttribute(name, value.toFixed(1));
-}
-
-function centre(circle, x, y) {
-  circle.setAttribute("cx", x.toFixed(1));
-  circle.setAttribute("cy", y.toFixed(1));
-}
+const put = (line, x1, x2, y1, y2 = y1) => dress(line, { x1, x2, y1, y2 });
+const centre = (circle, cx, cy) => dress(circle, { cx, cy });
 
 // In one plot. row: what its vertical axis is.
 export class Chosen {

@@ -1,14 +1,14 @@
 // What stands still in Fig. 6 while a motion is pulled: the axes, the region of the motions that roll, and its limits.
-import { local } from "../data.js";
+import { tidy } from "../data.js";
 import { ticks } from "../lab/curves.js";
+import { levels, marks } from "../lab/line.js";
 import { drawn } from "../widgets/parts.js";
 /** @import { Box, Plot } from "./scales.js" */
 
 const CLOSE = 4; // px: tielines are no closer
 
-// As short as it can be written, in the page's language.
 /** @param {number} value */
-export const shortly = (value) => local(String(Number(value.toPrecision(6))));
+export const shortly = (value) => tidy(value, 6);
 
 const at = (x, y) => `${x.toFixed(1)} ${y.toFixed(1)}`;
 
@@ -59,14 +59,10 @@ export function region(plot, { K_J, lift_in, slip_in, slip_out, lift_out, verge,
 
 // Marks of a vertical axis with their numbers, and lines across.
 /** @param {Plot} plot @param {[number, number]} range @param {number} count @param {number} size of the type @param {(value: number) => string} word */
-export const upwards = ({ y, box }, range, count, size, word) => ticks(...range, count).flatMap((value) => [
-  drawn("line", { class: Math.abs(value) > 1e-9 ? "grid" : "axis", x1: box.left, x2: box.right, y1: y(value), y2: y(value) }),
-  drawn("text", { x: box.left - 6, y: y(value) + 0.35 * size, "text-anchor": "end" }, word(value)),
-]);
+export const upwards = ({ y, box }, range, count, size, word) => levels(ticks(...range, count), { ...box, y }, word, 0, 0.35 * size);
 
 /** @param {Plot} plot @param {[number, number]} range @param {number} count @param {number} size @param {(value: number) => string} word */
-export const across = ({ x, box }, range, count, size, word) => ticks(...range, count).map((value) =>
-  drawn("text", { x: x(value), y: box.bottom + 1.3 * size, "text-anchor": "middle" }, word(value)));
+export const across = ({ x, box }, range, count, size, word) => marks(ticks(...range, count), { ...box, x }, word, 1.3 * size);
 
 // The path of a motion that slips, above or below: its means, and the tilts that it nods through. touches: the row from
 // which on it is that of a whole sphere.

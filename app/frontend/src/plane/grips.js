@@ -9,9 +9,8 @@ const LEAST = 5; // px
 
 // The distance of a point on the screen from the selected tieline, in px.
 /** @param {Tieline} shown @param {number} px @param {number} py @param {{ x: PixelScale, y: PixelScale }} scales */
-export function awayFromTieline({ inner, outer, K_J }, px, py, { x, y }) {
-  return Math.hypot(Math.max(x.compute(inner) - px, 0, px - x.compute(outer)), y.compute(K_J) - py);
-}
+export const awayFromTieline = ({ inner, outer, K_J }, px, py, { x, y }) =>
+  Math.hypot(Math.max(x.compute(inner) - px, 0, px - x.compute(outer)), y.compute(K_J) - py);
 
 // point: on the screen; hand: theta and K_J there, or where the pointer has moved since.
 /**

@@ -3,6 +3,7 @@ import { set } from "../data.js";
 import { clamp, nearestRow, timeAtTilt } from "../figures/curves.js";
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { seek } from "../figures/seeking.js";
+import { atEnd } from "../life.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { awayFromTieline, gripAt, REACH } from "./grips.js";
 import { readPlane, valuesIn } from "./reading.js";
@@ -13,16 +14,15 @@ const STILL = 2; // px: a press that moves less is a click
 const TILT = 0.01, FAST = 10, HELD = 500; // rad a key; times as far; ms that a key counts on the one before
 
 export class Hand {
-  /** @param {PlaneFigure} figure */
-  constructor(figure) {
+  /** @param {PlaneFigure} figure @param {AbortSignal} signal its life */
+  constructor(figure, signal) {
     this.figure = figure;
     /** @type {{ grip: string, from: [number, number], scrolls: boolean, moved: boolean } | null} */
     this.press = null;
     /** @type {[x: number, y: number] | null} */
     this.at = null; // px of the drawing
     this.keyed = { name: "", value: 0, when: -Infinity };
-    const { drawing } = figure, listening = (this.listening = new AbortController()), { signal } = listening;
-    const on = (name, run, more = {}) => drawing.addEventListener(name, run, { signal, ...more });
+    const on = (name, run, more = {}) => figure.drawing.addEventListener(name, run, more);
     on("pointerdown", (event) => this.take(event));
     on("pointermove", (event) => this.move(event));
     on("pointerup", (event) => this.release(event));
@@ -32,12 +32,11 @@ export class Hand {
     // A finger on the selected tieline drags it; anywhere else it scrolls the page.
     on("touchstart", (event) => event.touches.length === 1 && this.isOnTieline(this.pointOf(event.touches[0])) && event.preventDefault(), { passive: false });
     window.addEventListener("scroll", () => hideReadout(this), { capture: true, passive: true, signal });
+    atEnd(signal, () => hideReadout(this));
   }
 
   // What is held.
-  get grip() {
-    return this.press?.moved && !this.press.scrolls ? this.press.grip : null;
-  }
+  get grip() { return this.press?.moved && !this.press.scrolls ? this.press.grip : null; }
 
   get scales() {
     const { x, y } = this.figure.picture.plots.plane;
@@ -51,16 +50,14 @@ export class Hand {
   }
 
   /** @returns {[theta: number, K_J: number]} */
-  placeOf([px, py]) {
-    return [this.scales.x.invert(px), this.scales.y.invert(py)];
-  }
+  placeOf([px, py]) { return [this.scales.x.invert(px), this.scales.y.invert(py)]; }
 
   isOnTieline([px, py]) {
-    return Boolean(this.figure.state) && awayFromTieline(this.figure.shown, px, py, this.scales) < REACH;
+    return Boolean(this.figure.state) && awayFromTieline(this.figure.state, px, py, this.scales) < REACH;
   }
 
   gripAt(point) {
-    const { shown, theta, limits } = this.figure;
+    const { state: shown, theta, limits } = this.figure;
     return gripAt({ ...shown, theta }, limits, point, this.placeOf(point), this.scales);
   }
 
@@ -115,7 +112,7 @@ export class Hand {
   pull(point, done) {
     const [theta, K_J] = this.placeOf(point), grip = /** @type {string} */ (this.grip);
     if (grip === "bead") this.moveClock(theta, !done);
-    else this.ask(grip, theta, grip === "end" ? this.figure.shown.K_J : grip === "tieline" && done ? this.rowNear(K_J) : K_J);
+    else this.ask(grip, theta, grip === "end" ? this.figure.state.K_J : grip === "tieline" && done ? this.rowNear(K_J) : K_J);
     this.told();
   }
 
@@ -130,7 +127,7 @@ export class Hand {
 
   // The clock may be in a later nutation than the one that is known.
   moveClock(theta, held) {
-    const { motion, shown, now, model } = this.figure, { inner, outer, period } = shown;
+    const { motion, state: shown, now, model } = this.figure, { inner, outer, period } = shown;
     const turns = period > 0 ? Math.max(Math.floor(now / period), 0) * period : 0;
     seek(turns + timeAtTilt(motion, clamp(theta, inner, outer), now - turns), held, model.clock);
   }
@@ -150,7 +147,7 @@ export class Hand {
 
   // While the pointer drags: why the motion there is impossible.
   told() {
-    const { grip, figure } = this, { worst } = figure.shown;
+    const { grip, figure } = this, { worst } = figure.state;
     if (!grip) return;
     const words = grip !== "bead" && worst !== ROLLS ? wordOf(worst, figure.model.texts.regimes) : undefined;
     if (words) this.say(words);
@@ -159,7 +156,7 @@ export class Hand {
 
   // Beside the hand, clear of the selected tieline.
   say(words) {
-    const { shown } = this.figure, { left, top } = this.figure.drawing.getBoundingClientRect(), { x, y } = this.scales;
+    const { state: shown } = this.figure, { left, top } = this.figure.drawing.getBoundingClientRect(), { x, y } = this.scales;
     const [px, py] = /** @type {[number, number]} */ (this.at), level = top + y(shown.K_J);
     showReadout(this, words, [left + px, top + py],
       [{ left: left + x(shown.inner) - REACH, right: left + x(shown.outer) + REACH, top: level - REACH, bottom: level + REACH }]);
@@ -171,17 +168,12 @@ export class Hand {
     if (!name || !sign || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
-    const { figure, keyed } = this, { shown, now } = figure, goesOn = keyed.name === name && event.timeStamp - keyed.when < HELD;
+    const { figure, keyed } = this, { state: shown, now } = figure, goesOn = keyed.name === name && event.timeStamp - keyed.when < HELD;
     const { value, step } = { line: { value: shown.K_J, step: figure.step }, end: { value: shown.outer, step: TILT }, bead: { value: now, step: shown.period / 64 } }[name];
     const next = (goesOn ? keyed.value : value) + sign * step;
     this.keyed = { name, value: next, when: event.timeStamp };
     if (name === "bead") seek(Math.max(next, 0), false, figure.model.clock);
     else if (name === "line") this.ask("line", shown.inner, Number(next.toFixed(9)));
     else this.ask("end", next, shown.K_J);
-  }
-
-  leave() {
-    this.listening.abort();
-    hideReadout(this);
   }
 }

@@ -1,5 +1,5 @@
 // A tieline that is too short to be seen is also shown enlarged, in a corner of the plane.
-import { fill, local } from "../data.js";
+import { degrees, fill, local } from "../data.js";
 import { drawn } from "../widgets/parts.js";
 import { Chosen } from "./chosen.js";
 import { across, region, shortly, upwards } from "./drawing.js";
@@ -41,9 +41,9 @@ export class Inset {
     const around = Math.max(AROUND * (state.outer - state.inner), 1e-3), [low, high] = state.K_J_range, by = LEVELS * (high - low);
     /** @type {[number, number][]} */
     const [along, up] = [[state.inner - around, state.outer + around], [state.K_J - by, state.K_J + by]];
-    const plot = plotOf(inner, along, up), degrees = (tilt) => local(((tilt * 180) / Math.PI).toFixed(1));
+    const plot = plotOf(inner, along, up), said = (tilt) => local(degrees(tilt).toFixed(1));
     this.chosen.show(plot, state);
-    const text = fill(texts.near, { inner: degrees(state.inner), outer: degrees(state.outer) });
+    const text = fill(texts.near, { inner: said(state.inner), outer: said(state.outer) });
     return [
       drawn("rect", { class: "card", x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top, rx: 6 }),
       drawn("clipPath", { id: "near" }, drawn("rect", { x: inner.left, y: inner.top, width: inner.right - inner.left, height: inner.bottom - inner.top })),

@@ -1,5 +1,5 @@
 // Where the names of the curves of Fig. 6 may stand, in the order in which they are tried.
-import { fill, local } from "../data.js";
+import { degrees, fill, local, tidy } from "../data.js";
 import { touchBoxes } from "./drawing.js";
 import { limitAt, placeIn } from "./reading.js";
 /** @import { Plot } from "./scales.js" */
@@ -45,7 +45,7 @@ export function curveNames(plot, limits, texts, mu_s, size) {
   const all = [["lift", of("lift_verge"), "start"], ["verge", of("verge"), "start"], ["steady", of("steady"), "end"], ["lost", lost, "start"], ["tielines", middle("slip_in", "slip_out"), "end"]];
   return all.map(([name, tilt, first]) => ({
     kind: name, places: beside(plot, limits, tilt, first, size),
-    says: texts.names[name].map((text) => fill(text, { mu: local(String(Number(mu_s.toPrecision(3)))) })),
+    says: texts.names[name].map((text) => fill(text, { mu: tidy(mu_s) })),
   }));
 }
 
@@ -66,12 +66,12 @@ function along({ x, y }, theta, values, size, shares, lines = 1) {
 
 /** @param {Record<"plane" | "routh", Plot>} plots @param {Path} path @param {Record<string, any>} state @param {Record<string, any>} texts @param {number} size @returns {Record<"first" | "last" | "routh", Name[]>} */
 export function pathNames({ plane, routh }, path, state, texts, size) {
-  const { theta, K_J } = path, { slips } = texts, last = theta.length - 1, degrees = (tilt) => ({ degrees: local(((tilt * 180) / Math.PI).toFixed(0)) });
+  const { theta, K_J } = path, { slips } = texts, last = theta.length - 1, at = (tilt) => ({ degrees: local(degrees(tilt).toFixed(0)) });
   const ends = along(plane, theta, K_J, size, [1, 0.9, 0.8]).sort((a, b) => b.y - a.y); // below the end if there is room
   const first = [{ kind: "K_J", says: slips.keeps, places: along(plane, theta, K_J, size, ALONG) }];
-  if (state.rolls) first.unshift({ kind: "K_J", says: slips.ends.map((text) => fill(text, degrees(theta[last]))), places: ends });
-  const touches = () => ({ kind: "", says: slips.touches.map((text) => fill(text, degrees(state.touch))), places: touchBoxes(plane, path, state).flatMap(({ top, bottom, left, right }) =>
-    [0.5, 0.35, 0.2, 0.65, 0.8].flatMap((share) => [{ x: right + 4, side: START }, { x: left - 4, side: END }].map((at) => ({ ...at, y: top + share * (bottom - top) }))) ) });
+  if (state.rolls) first.unshift({ kind: "K_J", says: slips.ends.map((text) => fill(text, at(theta[last]))), places: ends });
+  const touches = () => ({ kind: "", says: slips.touches.map((text) => fill(text, at(state.touch))), places: touchBoxes(plane, path, state).flatMap(({ top, bottom, left, right }) =>
+    [0.5, 0.35, 0.2, 0.65, 0.8].flatMap((share) => [{ x: right + 4, side: START }, { x: left - 4, side: END }].map((side) => ({ ...side, y: top + share * (bottom - top) }))) ) });
   return { first, last: state.touches === null ? [] : [touches()], routh: routhNames(routh, path, slips, size) };
 }
 

@@ -1,10 +1,11 @@
 // Fig. 6: which motions roll, the selected one with its bead at the time of the clock, and where it goes if it slips.
-import { followLook } from "../controls/look.js";
-import { coalesce, fill, float32, local, set } from "../data.js";
+import { coalesce, degrees, fill, float32, local, set, tidy } from "../data.js";
 import { spotOf, valueAt } from "../figures/curves.js";
+import { followClock } from "../figures/seeking.js";
+import { followLook, lifeOf, report } from "../life.js";
 import { timeOf } from "../motion/clock.js";
 import { nameOf, ROLLS } from "../regimes.js";
-import { part } from "../widgets/parts.js";
+import { dress, part } from "../widgets/parts.js";
 import { Hand } from "./hand.js";
 import { Picture } from "./picture.js";
 import { limitsFrom } from "./reading.js";
@@ -24,12 +25,10 @@ function columnsOf(bytes, names) {
   return Object.fromEntries(names.map((name, i) => [name, Float32Array.from({ length: count }, (_, row) => rows[names.length * row + i])]));
 }
 
-const degrees = (tilt) => (tilt * 180) / Math.PI;
-
 export class PlaneFigure {
-  /** @param {Omit<Rendering<PlaneModel>, "view">} rendering */
-  constructor({ model, el }) {
-    const { texts } = model;
+  /** @param {Rendering<PlaneModel>} rendering */
+  constructor(rendering) {
+    const { model, el } = rendering, { texts } = model, life = lifeOf(rendering);
     this.model = model;
     this.now = timeOf(model.clock);
     this.pictures = this.presses = 0;
@@ -57,16 +56,13 @@ export class PlaneFigure {
       part("div", { class: "titled" }, up, this.old, ...Object.values(this.roads)), part("div", { class: "plot" }, this.drawing, down, across));
     this.frame = part("div", { class: "frame" }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
-    this.hand = new Hand(this);
-    this.update = coalesce(() => this.show());
-    this.resizing = new ResizeObserver(() => this.update());
-    this.resizing.observe(this.drawing);
-    this.unfollow = followLook(this.frame, () => this.update());
-    this.report();
-  }
-
-  get shown() {
-    return this.state;
+    this.hand = new Hand(this, life);
+    this.update = coalesce(() => this.show(), life);
+    new ResizeObserver(this.update).observe(this.drawing);
+    followLook(this.frame, life, this.update);
+    for (const name of ["state", "motion", "limits", "field", "path"]) model.on(name, this.update);
+    followClock(({ t }) => this.at(t), model.clock, life);
+    report("plane", () => this.report(), life);
   }
 
   // Of a key that moves K_J.
@@ -115,7 +111,7 @@ export class PlaneFigure {
   // To the ear.
   speak() {
     const { state, model: { texts } } = this, tilt = (value) => local(degrees(value).toFixed(1));
-    const says = { K_J: local(String(Number(state.K_J.toPrecision(4)))), inner: tilt(state.inner), outer: tilt(state.outer), way: texts.ways[nameOf(state.worst)] };
+    const says = { K_J: tidy(state.K_J, 4), inner: tilt(state.inner), outer: tilt(state.outer), way: texts.ways[nameOf(state.worst)] };
     this.drawing.setAttribute("aria-label", `${texts.figure}. ${fill(texts.selected, says)}`);
     this.value("line", state.K_J_range, state.K_J, says.K_J);
     this.value("end", [0, 180], degrees(state.outer), `${says.outer}°`);
@@ -125,8 +121,7 @@ export class PlaneFigure {
   value(grip, [least, most], now, text) {
     const slider = this.picture.chosen.grips[grip];
     if (slider.getAttribute("aria-valuetext") === text) return;
-    const values = { valuemin: Math.min(least, now), valuemax: Math.max(most, now), valuenow: now, valuetext: text };
-    for (const [name, value] of Object.entries(values)) slider.setAttribute(`aria-${name}`, String(value));
+    dress(slider, { "aria-valuemin": Math.min(least, now), "aria-valuemax": Math.max(most, now), "aria-valuenow": now, "aria-valuetext": text });
   }
 
   // The bead at a time of the clock; the motion repeats.
@@ -142,39 +137,14 @@ export class PlaneFigure {
 
   // For tests: what is shown, and where.
   report() {
-    const figure = this, { picture, drawing } = this;
-    window.__tippe.plane = {
-      bar: picture.chosen.parts.bar,
-      get pictures() { return figure.pictures; },
-      get selected() { return figure.state && { ...figure.state, theta: figure.theta }; },
-      get limits() { return figure.limits; },
-      get path() { return figure.path; },
-      get names() { return [...drawing.querySelectorAll(".name")].map((name) => name.textContent); },
-      pixel: (theta, value, plot = "plane") => {
-        const { left, top } = drawing.getBoundingClientRect(), { x, y } = picture.plots[plot];
-        return [left + x(theta), top + y(value)];
-      },
+    const { picture, drawing, pictures, state, theta, limits, path } = this, names = [...drawing.querySelectorAll(".name")].map((name) => name.textContent);
+    const pixel = (tilt, value, plot = "plane") => {
+      const { left, top } = drawing.getBoundingClientRect(), { x, y } = picture.plots[plot];
+      return [left + x(tilt), top + y(value)];
     };
-  }
-
-  leave() {
-    this.update.cancel();
-    this.resizing.disconnect();
-    this.hand.leave();
-    this.unfollow();
+    return { bar: picture.chosen.parts.bar, pictures, selected: state && { ...state, theta }, limits, path, names, pixel };
   }
 }
 
 /** @param {Rendering<PlaneModel>} rendering */
-export function renderPlane({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
-  const figure = new PlaneFigure({ model, el }), listening = new AbortController(), { signal } = listening;
-  for (const name of ["state", "motion", "limits", "field", "path"]) model.on(name, figure.update);
-  window.addEventListener(`tippe:clock:${model.clock}`, ({ detail: { t } }) => figure.at(t), { signal });
-  const dispose = () => {
-    listening.abort();
-    figure.leave();
-  };
-  view.tippe = { dispose };
-  model.on("remove", dispose);
-}
+export const renderPlane = (rendering) => void new PlaneFigure(rendering);

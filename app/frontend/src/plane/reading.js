@@ -1,7 +1,6 @@
 // The limits of the motions that roll, as Python sent them, and what they say of a place.
-import { rowBefore } from "../data.js";
 import { valueAt } from "../figures/curves.js";
-import { fill, float32, local } from "../data.js";
+import { fill, float32, local, rowBefore } from "../data.js";
 
 const NAMES = ["K_J", "lift_in", "slip_in", "slip_out", "lift_out", "verge", "lift_verge", "steady", "slip_E", "slip_by", "lift_by"];
 

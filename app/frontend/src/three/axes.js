@@ -1,18 +1,11 @@
 // The box around a surface: floor and back walls with a grid, and ticks and names on the edges nearest to the camera.
 import * as THREE from "three";
-import { local } from "../data.js";
+import { local, stepOf } from "../data.js";
+import { ticks } from "../lab/curves.js";
 /** @import { Labels } from "./labels.js" */
 /** @import { Stage } from "./stage.js" */
 
-// About `wanted` round numbers between low and high.
-/** @param {number} low @param {number} high @param {number} wanted */
-function roundTicks(low, high, wanted) {
-  const raw = (high - low) / wanted, decade = 10 ** Math.floor(Math.log10(raw));
-  const step = decade * ([1, 2, 2.5, 5].find((digits) => digits * decade >= raw * (1 - 1e-9)) ?? 10);
-  const ticks = [];
-  for (let i = Math.ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; i++) ticks.push(i * step);
-  return { step, ticks };
-}
+const DIGITS = [1, 2, 2.5, 5];
 
 // One quantity along an edge of the box: converts values to positions and back. Requires to > from.
 export class Scale {
@@ -34,13 +27,14 @@ export class Scale {
   set(low, high) {
     if (!(high > low)) [low, high] = [low - 0.5, low + 0.5];
     if (low === this.low && high === this.high) return false;
-    Object.assign(this, { low, high }, roundTicks(low, high, this.wanted));
+    const step = stepOf((high - low) / this.wanted, DIGITS);
+    Object.assign(this, { low, high, step, ticks: ticks(low, high, this.wanted, step) });
     return true;
   }
 
   // From 0 to a round number just above: it seldom jumps while a slider is dragged.
   setAbove(most) {
-    const { step } = roundTicks(0, most || 1, this.wanted);
+    const step = stepOf((most || 1) / this.wanted, DIGITS);
     return this.set(0, step * Math.ceil((most || 1) / step - 1e-6));
   }
 

@@ -7,67 +7,26 @@ const AROUND = 56;
 const PAINT = "#8f2313"; // belongs to no quantity
 const CORNER = 0.35; // rad: a sharper bend than this is an edge of the wood, not a curve
 
-// Rows of (radius, height, normal r, normal z, fraction of the outline's length); a corner has two rows, one for each
-// side.
+// The surface of revolution of an outline, which has an edge where a point stands twice; the fraction of the outline at
+// which the first edge is; and its points.
 /** @param {Float32Array} profile */
-function outline(profile) {
-  const n = profile.length >> 1;
-  const points = Array.from({ length: n }, (_, i) => [profile[2 * i], profile[2 * i + 1]]);
-  if (n && points[0][1] > points[n - 1][1]) points.reverse(); // from the bottom up
-  const edges = [];
-  for (let i = 0; i + 1 < points.length; i++) {
-    const dr = points[i + 1][0] - points[i][0], dz = points[i + 1][1] - points[i][1];
-    const length = Math.hypot(dr, dz);
-    if (length > 1e-6) edges.push({ from: points[i], to: points[i + 1], length, normal: [dz / length, -dr / length] });
-  }
-  const total = edges.reduce((sum, edge) => sum + edge.length, 0);
-  const rows = [];
-  let along = 0, firstCorner = 1;
-  const push = ([r, z], [nr, nz]) => rows.push([r, z, nr, nz, along / total]);
-  edges.forEach((edge, i) => {
-    const before = edges[i - 1];
-    if (!before) push(edge.from, [0, -1]);
-    else {
-      const cosine = edge.normal[0] * before.normal[0] + edge.normal[1] * before.normal[1];
-      if (Math.acos(Math.min(cosine, 1)) > CORNER) {
-        firstCorner = Math.min(firstCorner, along / total);
-        push(edge.from, before.normal);
-        push(edge.from, edge.normal);
-      } else {
-        const sum = [edge.normal[0] + before.normal[0], edge.normal[1] + before.normal[1]];
-        const length = Math.hypot(...sum);
-        push(edge.from, [sum[0] / length, sum[1] / length]);
-      }
-    }
-    along += edge.length;
-    if (i === edges.length - 1) push(edge.to, edge.normal);
+function revolved(profile) {
+  const given = Array.from({ length: profile.length >> 1 }, (_, i) => new THREE.Vector2(profile[2 * i], profile[2 * i + 1]));
+  if (given.length && given[0].y > given[given.length - 1].y) given.reverse(); // from the bottom up
+  const outline = given.filter((point, i) => !i || point.distanceTo(given[i - 1]) > 1e-6);
+  const pieces = outline.slice(1).map((point, i) => point.clone().sub(outline[i])), points = [], lengths = [];
+  let length = 0, smooth = 0; // of all, and to the first edge
+  outline.forEach((point, i) => {
+    const isEdge = i > 0 && i < pieces.length && pieces[i - 1].angleTo(pieces[i]) > CORNER;
+    if (isEdge) smooth ||= length;
+    points.push(...(isEdge ? [point, point] : [point]));
+    lengths.push(...(isEdge ? [length, length] : [length]));
+    length += pieces[i]?.length() ?? 0;
   });
-  return { rows, firstCorner };
-}
-
-function revolve(rows) {
-  const positions = [], normals = [], uvs = [], index = [];
-  for (const [r, z, nr, nz, v] of rows) {
-    for (let k = 0; k <= AROUND; k++) {
-      const angle = (2 * Math.PI * k) / AROUND, x = Math.cos(angle), y = Math.sin(angle);
-      positions.push(r * x, r * y, z);
-      normals.push(nr * x, nr * y, nz);
-      uvs.push(k / AROUND, v);
-    }
-  }
-  const across = AROUND + 1;
-  for (let j = 0; j + 1 < rows.length; j++) {
-    for (let k = 0; k < AROUND; k++) {
-      const a = j * across + k, b = a + across;
-      index.push(a, a + 1, b, b, a + 1, b + 1);
-    }
-  }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
-  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
-  geometry.setAttribute("uv", new THREE.Float32BufferAttribute(uvs, 2));
-  geometry.setIndex(index);
-  return geometry;
+  const geometry = new THREE.LatheGeometry(points, AROUND).rotateX(Math.PI / 2).rotateZ(Math.PI / 2), { uv } = geometry.attributes;
+  geometry.normalizeNormals();
+  for (let i = 0; i < uv.count; i++) uv.setY(i, lengths[i % points.length] / length);
+  return { geometry, points, firstCorner: smooth ? smooth / length : 1 };
 }
 
 // A small random number generator with a fixed seed: the wood always looks the same.
@@ -137,11 +96,11 @@ export class Body extends THREE.Mesh {
     const { geometry: old, material } = this;
     old.dispose();
     material.map?.dispose();
-    const { rows, firstCorner } = outline(profile);
-    this.geometry = revolve(rows);
+    const { geometry, points, firstCorner } = revolved(profile);
+    this.geometry = geometry;
     material.map = paint(firstCorner);
     material.needsUpdate = true;
-    this.reach = rows.reduce((most, [r, z]) => Math.max(most, Math.hypot(r, z)), 1); // from O to the farthest point
-    this.top = rows.reduce((most, [, z]) => Math.max(most, z), 0); // and to the end of the axis
+    this.reach = Math.max(1, ...points.map((point) => point.length())); // from O to the farthest point
+    this.top = Math.max(0, ...points.map(({ y }) => y)); // and to the end of the axis
   }
 }

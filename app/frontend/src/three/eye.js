@@ -26,9 +26,7 @@ export class Eye {
   }
 
   /** @returns {[x: number, y: number, z: number]} */
-  get direction() {
-    return this.camera.position.clone().sub(this.seen).normalize().toArray();
-  }
+  get direction() { return this.camera.position.clone().sub(this.seen).normalize().toArray(); }
 
   /** @param {number} now in ms @param {boolean} playing */
   follow(now, playing) {
@@ -41,10 +39,7 @@ export class Eye {
 
   move(dx, dy) {
     const { seen, camera, controls } = this;
-    seen.x += dx;
-    seen.y += dy;
-    camera.position.x += dx;
-    camera.position.y += dy;
+    for (const each of [seen, camera.position]) each.set(each.x + dx, each.y + dy, each.z);
     controls.target.copy(seen);
     camera.lookAt(seen);
   }
@@ -60,11 +55,7 @@ export class Eye {
     const { seen, camera, controls, model, stands } = this;
     seen.set(stands.x, stands.y, 0);
     const [azimuth, height, times] = model.camera.length ? model.camera : FIRST_VIEW, far = this.distance() * times;
-    camera.position.set(
-      seen.x + far * Math.cos(height) * Math.cos(azimuth),
-      seen.y + far * Math.cos(height) * Math.sin(azimuth),
-      seen.z + far * Math.sin(height),
-    );
+    camera.position.set(Math.cos(height) * Math.cos(azimuth), Math.cos(height) * Math.sin(azimuth), Math.sin(height)).multiplyScalar(far).add(seen);
     controls.minDistance = 1.6;
     this.fitBody();
     controls.maxPolarAngle = Math.PI / 2 - 0.02; // never from below the table

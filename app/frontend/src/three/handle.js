@@ -2,6 +2,7 @@
 // is in sight where the pointer is; in Roll, only a paused top has it.
 import { Vector3 } from "three";
 import { local } from "../data.js";
+import { dress } from "../widgets/parts.js";
 /** @import { Body } from "./body.js" */
 /** @import { Labels } from "./labels.js" */
 /** @import { Player } from "../motion/player.js" */
@@ -48,13 +49,8 @@ export class Handle {
     this.tilt = ""; // as it was written last
     this.label = labels.add("", "handle");
     const { element } = this.label;
-    element.tabIndex = 0;
     element.removeAttribute("aria-hidden");
-    element.setAttribute("role", "slider");
-    element.setAttribute("aria-label", model.texts.handle);
-    element.setAttribute("aria-valuemin", "0");
-    element.setAttribute("aria-valuemax", this.said(Math.PI));
-    element.title = model.texts.handle_hint;
+    dress(element, { tabindex: 0, role: "slider", "aria-label": model.texts.handle, "aria-valuemin": 0, "aria-valuemax": this.said(Math.PI), title: model.texts.handle_hint });
     element.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       element.focus({ preventScroll: true });
@@ -62,8 +58,8 @@ export class Handle {
       this.take();
       this.held = true;
     });
-    element.addEventListener("pointermove", (event) => this.held && this.pull(event));
-    for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) element.addEventListener(end, () => this.letGo());
+    element.onpointermove = (event) => this.held && this.pull(event);
+    element.onpointerup = element.onpointercancel = element.onlostpointercapture = () => this.letGo();
     element.addEventListener("keydown", (event) => {
       const step = { ArrowUp: -KEY_STEP, ArrowLeft: -KEY_STEP, ArrowDown: KEY_STEP, ArrowRight: KEY_STEP }[event.key];
       if (!step) return;

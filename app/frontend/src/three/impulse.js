@@ -37,9 +37,7 @@ export class Impulse {
     this.hide();
   }
 
-  get axis() {
-    return up.clone().applyQuaternion(this.scene.body.quaternion);
-  }
+  get axis() { return up.clone().applyQuaternion(this.scene.body.quaternion); }
 
   /** @param {string} said */
   show(said) {

@@ -1,5 +1,8 @@
 // Text at a point in space: HTML over the canvas, so that it is sharp at any zoom.
 import { Vector3 } from "three";
+import { penOf } from "../data.js";
+import { paintWords } from "../paint.js";
+import { part } from "../widgets/parts.js";
 /** @import { Stage } from "./stage.js" */
 
 const projected = new Vector3();
@@ -8,8 +11,7 @@ export class Labels {
   /** @param {Stage} stage */
   constructor(stage) {
     this.stage = stage;
-    this.layer = document.createElement("div");
-    this.layer.className = "labels";
+    this.layer = part("div", { class: "labels" });
     stage.holder.append(this.layer);
     /** @type {Label[]} */
     this.all = [];
@@ -17,16 +19,24 @@ export class Labels {
 
   /** @param {string} html @returns {Label} */
   add(html, className = "") {
-    const element = document.createElement("span");
-    element.className = className;
-    element.setAttribute("aria-hidden", "true");
+    const element = part("span", { class: className, "aria-hidden": "true", style: "display: none" }); // until it has a position
     element.innerHTML = html;
-    element.style.display = "none"; // until it has a position
     this.layer.append(element);
     /** @type {Label} */
     const label = { element, at: new Vector3(), shift: [0, 0], visible: true, margin: -Infinity };
     this.all.push(label);
     return label;
+  }
+
+  // The picture of the stage for print, with the labels: drawn again, so many px wide.
+  /** @param {number} wide @returns {HTMLCanvasElement} */
+  photo(wide) {
+    const { stage, all } = this, still = stage.still(wide), { width, height } = still, scale = width / stage.width;
+    const canvas = part("canvas", { width, height }), ink = penOf(canvas);
+    ink.drawImage(still, 0, 0);
+    ink.scale(scale, scale);
+    for (const { element } of all) paintWords(ink, element, stage.holder.getBoundingClientRect());
+    return canvas;
   }
 
   place() {

@@ -1,7 +1,7 @@
 // The axis of the top as seen on a film: a dashed line through the centre of the ball. Rows t, x, y, z, in units of the
 // top's time.
 import { float32, rowBefore } from "../data.js";
-import { followLook } from "./scene.js";
+import { followScene } from "./scene.js";
 import { WideLine } from "./lines.js";
 /** @import { Stage } from "./stage.js" */
 /** @import { Labels } from "./labels.js" */
@@ -24,8 +24,8 @@ export function rowAt(rows, t) {
 }
 
 export class Measured {
-  /** @param {Stage} stage @param {Labels} labels @param {TopModel} model */
-  constructor(stage, labels, model) {
+  /** @param {Stage} stage @param {Labels} labels @param {TopModel} model @param {AbortSignal} life */
+  constructor(stage, labels, model, life) {
     this.model = model;
     this.halo = new WideLine({ color: 0xffffff, linewidth: 5, transparent: true, opacity: 0.85, depthTest: false });
     this.line = new WideLine({ color: 0x000000, linewidth: 2, transparent: true, depthTest: false });
@@ -34,11 +34,11 @@ export class Measured {
     this.label = labels.add("", "measured");
     stage.scene.add(this.halo, this.line);
     this.rows = new Float32Array();
-    this.leave = followLook(({ sky, ink }) => {
+    followScene(({ sky, ink }) => {
       this.halo.material.color.set(sky);
       this.line.material.color.set(ink);
       stage.invalidate();
-    });
+    }, life);
   }
 
   read() {

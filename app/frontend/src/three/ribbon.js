@@ -8,19 +8,13 @@ export class Ribbon extends THREE.Mesh {
     super(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide, ...material }));
     this.halfWidth = width / 2;
     this.frustumCulled = false;
-    this.capacity = 0;
   }
 
   reserve(points) {
-    if (points <= this.capacity) return;
-    this.capacity = points;
+    if (!grow(this, 2 * points)) return;
     const index = [];
     for (let i = 0; i + 1 < points; i++) index.push(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 3, 2 * i + 2);
-    const { geometry: old } = this;
-    this.geometry = new THREE.BufferGeometry(); // a buffer cannot be resized once it has been drawn
-    this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6 * points), 3));
     this.geometry.setIndex(index);
-    old.dispose();
   }
 
   // (x, y) pairs, all at one height.
@@ -46,6 +40,14 @@ export class Ribbon extends THREE.Mesh {
   }
 }
 
+// Gives a mesh room for so many points, if it has less: a buffer cannot be resized once it has been drawn.
+function grow(mesh, points) {
+  if (points <= (mesh.geometry.attributes.position?.count ?? 0)) return false;
+  mesh.geometry.dispose();
+  mesh.geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * points), 3));
+  return true;
+}
+
 // A line one pixel wide, in space.
 /** @extends {THREE.Line<THREE.BufferGeometry, THREE.LineBasicMaterial>} */
 export class Thread extends THREE.Line {
@@ -53,18 +55,11 @@ export class Thread extends THREE.Line {
   constructor(material) {
     super(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, depthWrite: false, ...material }));
     this.frustumCulled = false;
-    this.capacity = 0;
   }
 
   /** @param {number} n @param {Points} point */
   setPath(n, point) {
-    if (n > this.capacity) {
-      this.capacity = n;
-      const { geometry: old } = this;
-      old.dispose();
-      this.geometry = new THREE.BufferGeometry();
-      this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * n), 3));
-    }
+    grow(this, n);
     this.points = n;
     if (!n) return;
     const { geometry: { attributes: { position } } } = this;

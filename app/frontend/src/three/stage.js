@@ -2,6 +2,8 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { bufferOf, likeAScreen } from "../borrowed.js";
+import { atEnd } from "../life.js";
+import { dress, part } from "../widgets/parts.js";
 import { isHandOn } from "./hand.js";
 import { letGo } from "./scene.js";
 
@@ -35,8 +37,9 @@ export class Stage {
    * @param {string} options.label
    * @param {Record<string, any>} options.texts
    * @param {number} options.fov
+   * @param {AbortSignal} options.life
    */
-  constructor(holder, { label, texts, fov }) {
+  constructor(holder, { label, texts, fov, life }) {
     this.holder = holder;
     // Set by the picture. tick runs before each frame and tells whether another one must follow; held while a control
     // is in use and the picture must not move.
@@ -69,22 +72,18 @@ export class Stage {
     this.fineness = 1;
 
     const canvas = this.renderer.domElement;
-    canvas.tabIndex = 0;
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", label);
-    canvas.title = texts.hint;
+    dress(canvas, { tabindex: 0, role: "img", "aria-label": label, title: texts.hint });
     holder.append(canvas);
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
     this.listen(canvas, texts.lost);
-    this.resizing = new ResizeObserver(() => this.resize());
-    this.resizing.observe(holder);
-    this.seeing = new IntersectionObserver(([entry]) => {
+    new ResizeObserver(() => this.resize()).observe(holder);
+    new IntersectionObserver(([entry]) => {
       this.inView = entry.isIntersecting;
       this.invalidate();
-    });
-    this.seeing.observe(holder);
+    }).observe(holder);
+    atEnd(life, () => this.dispose());
   }
 
   /** @param {HTMLCanvasElement} canvas @param {string} lost message for when the browser takes the picture away */
@@ -136,17 +135,13 @@ export class Stage {
   /** @param {string} sentence */
   note(sentence) {
     this.noteElement?.remove();
-    if (!sentence) return;
-    this.noteElement = document.createElement("p");
-    this.noteElement.className = "note";
-    this.noteElement.setAttribute("role", "alert");
-    this.noteElement.textContent = sentence;
-    this.holder.append(this.noteElement);
+    this.noteElement = sentence && part("p", { class: "note", role: "alert" }, sentence);
+    if (sentence) this.holder.append(this.noteElement);
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.holder;
-    if (!width || !height) return;
+    if (!width || !height || this.disposed) return;
     this.width = width;
     this.height = height;
     this.renderer.setSize(width, height);
@@ -254,9 +249,7 @@ export class Stage {
     if (simple === this.simple) return;
     this.simple = simple;
     this.renderer.shadowMap.autoUpdate = !simple;
-    this.scene.traverse((/** @type {any} */ object) => {
-      if (object.isLineSegments2 && object.geometry.instanceCount > LONG_LINE) object.layers.set(simple ? 1 : 0);
-    });
+    this.scene.traverse((/** @type {any} */ object) => object.isLineSegments2 && object.geometry.instanceCount > LONG_LINE && object.layers.set(simple ? 1 : 0));
   }
 
   // Starts a picture, which the graphics process draws while the page goes on; present() puts it on the screen.
@@ -320,13 +313,10 @@ export class Stage {
   }
 
   dispose() {
-    if (this.disposed) return;
     this.disposed = true;
     this.forget();
     cancelAnimationFrame(this.request);
     clearTimeout(this.timer);
-    this.resizing.disconnect();
-    this.seeing.disconnect();
     this.controls.dispose();
     letGo(this.scene);
     this.target.dispose();
@@ -341,10 +331,7 @@ export function tryStage(holder, options) {
   try {
     return new Stage(holder, options);
   } catch {
-    const note = document.createElement("p");
-    note.className = "note";
-    note.textContent = options.texts.no_webgl;
-    holder.append(note);
+    holder.append(part("p", { class: "note" }, options.texts.no_webgl));
     return null;
   }
 }

@@ -3,11 +3,14 @@ import * as THREE from "three";
 import { Axes, Scale } from "./axes.js";
 import { colours } from "../colours.js";
 import { coalesce, float32, local } from "../data.js";
+import { hideReadout, showReadout } from "../figures/readout.js";
+import { atEnd, lifeOf, report } from "../life.js";
 import { Labels } from "./labels.js";
 import { wordOf } from "../regimes.js";
-import { followLook } from "./scene.js";
+import { followScene } from "./scene.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "../style.js";
+import { part } from "../widgets/parts.js";
 import { SurfaceHand } from "./surface_hand.js";
 import { dot, SurfaceLines } from "./surface_lines.js";
 import { Grid, SurfaceMesh } from "./surface_mesh.js";
@@ -33,8 +36,8 @@ function addLight(scene) {
 }
 
 export class Surface {
-  /** @param {SurfaceModel} model @param {Stage} stage @param {HTMLElement} picture */
-  constructor(model, stage, picture) {
+  /** @param {SurfaceModel} model @param {Stage} stage @param {HTMLElement} picture @param {AbortSignal} life */
+  constructor(model, stage, picture, life) {
     const { scene, renderer } = stage;
     this.model = model;
     this.stage = stage;
@@ -52,19 +55,16 @@ export class Surface {
     this.lines = new SurfaceLines(scene, this.labels, this.scales, clippingPlanes);
     this.marker = dot(colours.theta, 0.024);
     scene.add(this.mesh.object, this.marker);
-    this.readout = document.createElement("div");
-    this.readout.className = "readout";
-    this.readout.hidden = true;
-    this.key = document.createElement("div");
-    this.key.className = "key";
-    picture.append(this.readout);
+    /** @type {HTMLElement | null} */
+    this.readout = null; // while it shows values
+    this.key = part("div", { class: "key" });
     picture.after(this.key); // below the picture: on it, it would hide the numbers of an axis
     this.grid = new Grid({ K_J: float32(), theta: float32(), height: float32(), energy: float32() });
     this.selected = { K_J: NaN, inner: 0, outer: 0 }; // the selected motion
     this.wrong = ""; // why the selected motion is impossible
     this.drawing = this.shown = NaN; // its K_J in the picture being drawn, and in the one on the screen
-    this.hand = new SurfaceHand(this);
-    this.unfollow = followLook((look) => this.dress(look));
+    this.hand = new SurfaceHand(this, life);
+    followScene((look) => this.dress(look), life);
     stage.tick = () => {
       this.drawing = this.selected.K_J;
       return false;
@@ -82,10 +82,6 @@ export class Surface {
     this.lines.dress(look);
     this.axes.dress(look);
     this.stage.invalidate();
-  }
-
-  get isRead() {
-    return !this.readout.hidden;
   }
 
   update() {
@@ -144,25 +140,24 @@ export class Surface {
   /** @param {PointerEvent} event */
   readWrong(event) {
     if (this.wrong) this.readAt(event, this.wrong);
-    else this.readout.hidden = true;
+    else this.hideReadout();
+  }
+
+  hideReadout() {
+    hideReadout(this);
+    this.readout = null;
   }
 
   readNothing() {
-    if (!this.isRead) return;
-    this.readout.hidden = true;
+    if (!this.readout) return;
+    this.hideReadout();
     this.marker.visible = false;
     this.stage.invalidate();
   }
 
   /** @param {PointerEvent} event @param {string} html */
   readAt({ clientX, clientY }, html) {
-    const { readout } = this;
-    readout.innerHTML = html;
-    readout.hidden = false;
-    const box = this.picture.getBoundingClientRect();
-    const left = Math.min(clientX - box.left + 16, box.width - readout.offsetWidth - 8);
-    const top = Math.max(clientY - box.top - readout.offsetHeight - 12, 8);
-    readout.style.transform = `translate(${left}px, ${top}px)`;
+    this.readout = showReadout(this, html, [clientX, clientY], []);
   }
 
   /** @param {number} now of the window */
@@ -183,50 +178,30 @@ export class Surface {
     this.axes.place();
   }
 
-  begin() {
-    const { model, stage, hand } = this;
-    const onData = coalesce(() => this.update()); // a new scene sets many parameters, but is drawn once
-    const onSelected = coalesce(() => this.updateSelected());
+  /** @param {AbortSignal} life */
+  begin(life) {
+    const { model } = this;
+    const onData = coalesce(() => this.update(), life); // a new scene sets many parameters, but is drawn once
+    const onSelected = coalesce(() => this.updateSelected(), life);
     for (const name of DATA) model.on(name, onData);
     for (const name of ["selected", "selected_curve"]) model.on(name, onSelected);
     this.update();
-    const report = reportOf(this);
-    window.__tippe.surface3d = report;
-    return () => {
-      for (const later of [onData, onSelected]) later.cancel();
-      hand.forget();
-      if (window.__tippe.surface3d === report) delete window.__tippe.surface3d;
-      this.unfollow();
-      stage.dispose();
-    };
+    report("surface3d", () => this.report(), life);
+    atEnd(life, () => hideReadout(this));
+  }
+
+  // grips: where on the page the ends of the selected motion can be grabbed
+  report() {
+    const { grid: { rows, columns, ...grid }, stage: { pictures }, shown: selected, selected: { inner, outer }, readout } = this;
+    const [K_J, theta, height] = [grid.K_J, grid.theta, grid.height].map((values) => Array.from(values));
+    return { rows, columns, K_J, theta, height, pictures, selected, grips: [inner, outer].map((end) => this.hand.onPage(end)), readout: readout?.textContent ?? "" };
   }
 }
 
-// A report of what is drawn, for tests.
-/** @param {Surface} surface */
-function reportOf(surface) {
-  return {
-    get rows() { return surface.grid.rows; },
-    get columns() { return surface.grid.columns; },
-    get K_J() { return Array.from(surface.grid.K_J); },
-    get theta() { return Array.from(surface.grid.theta); },
-    get height() { return Array.from(surface.grid.height); },
-    get pictures() { return surface.stage.pictures; },
-    get selected() { return surface.shown; },
-    // where on the page the ends of the selected motion can be grabbed
-    get grips() { return [surface.selected.inner, surface.selected.outer].map((end) => surface.hand.onPage(end)); },
-    get readout() { return surface.isRead ? surface.readout.textContent : ""; },
-  };
-}
-
 /** @param {Rendering<SurfaceModel>} rendering */
-export function renderSurface3D({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
-  const { picture } = frameIn(el), { texts } = model;
+export function renderSurface3D(rendering) {
+  const { model, el } = rendering, { texts } = model, life = lifeOf(rendering), { picture } = frameIn(el);
   picture.dataset.picture = "surface";
-  const stage = tryStage(picture, { label: texts.label, texts, fov: 26 });
-  if (!stage) return;
-  const dispose = new Surface(model, stage, picture).begin();
-  view.tippe = { dispose };
-  model.on("remove", dispose);
+  const stage = tryStage(picture, { label: texts.label, texts, fov: 26, life });
+  if (stage) new Surface(model, stage, picture, life).begin(life);
 }

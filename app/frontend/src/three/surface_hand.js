@@ -16,8 +16,8 @@ export function gripBetween(a, b) {
 }
 
 export class SurfaceHand {
-  /** @param {Surface} surface */
-  constructor(surface) {
+  /** @param {Surface} surface @param {AbortSignal} life */
+  constructor(surface, life) {
     const { picture, stage } = surface;
     this.surface = surface;
     this.picture = picture;
@@ -30,8 +30,8 @@ export class SurfaceHand {
     /** @type {"end" | "line" | null} */
     this.gripped = null;
     this.pressed = this.last = /** @type {PointerEvent | null} */ (null);
-    this.hover = coalesce(() => this.read());
-    this.pull = coalesce(() => this.ask());
+    this.hover = coalesce(() => this.read(), life);
+    this.pull = coalesce(() => this.ask(), life);
     this.listen();
   }
 
@@ -94,12 +94,7 @@ export class SurfaceHand {
 
   // New values under a mouse that rests.
   refresh() {
-    if (this.surface.isRead && this.last && !this.gripped) this.hover();
-  }
-
-  forget() {
-    this.hover.cancel();
-    this.pull.cancel();
+    if (this.surface.readout && this.last && !this.gripped) this.hover();
   }
 
   // Shows the values of the surface under the pointer; beyond the ends of the tielines, why there is no surface. Where

@@ -75,9 +75,7 @@ export class SurfaceMesh {
     if (this.object.geometry.attributes.position?.count === count) return this.object.geometry;
     this.object.geometry.dispose();
     const geometry = (this.object.geometry = new THREE.BufferGeometry());
-    for (const name of ["position", "normal", "color"]) {
-      geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-    }
+    for (const name of ["position", "normal", "color"]) geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(6 * Math.max(rows - 1, 0) * Math.max(columns - 1, 0)), 1));
     return geometry;
   }

@@ -9,11 +9,12 @@ import { renderFlat } from "../figures/flat.js";
 import { Ghost } from "./ghost.js";
 import { Handle } from "./handle.js";
 import { Impulse } from "./impulse.js";
+import { lifeOf, report } from "../life.js";
 import { Measured } from "./measured.js";
-import { photo } from "./photo.js";
 import { colourOf, wordOf } from "../regimes.js";
 import { tryStage } from "./stage.js";
-import { addText, frameIn } from "../style.js";
+import { frameIn } from "../style.js";
+import { part } from "../widgets/parts.js";
 import { TopScene } from "./top_scene.js";
 /** @import { Stage } from "./stage.js" */
 
@@ -21,28 +22,29 @@ import { TopScene } from "./top_scene.js";
 const REDRAWN = ["mu_s", "seconds", "show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"];
 
 class Top {
-  /** @param {TopModel} model @param {Stage} stage @param {{ root: HTMLElement, picture: HTMLElement, label: string }} frame */
-  constructor(model, stage, { root, picture, label }) {
+  /** @param {TopModel} model @param {Stage} stage @param {{ root: HTMLElement, picture: HTMLElement, label: string, life: AbortSignal }} frame */
+  constructor(model, stage, { root, picture, label, life }) {
     this.model = model;
     this.stage = stage;
+    this.life = life;
+    this.label = label;
     this.received = this.drawing = this.shown = 0; // counts of motions: arrived, in the picture being drawn, on the screen
     this.highlight = /** @type {Pointed | null} */ (null); // from a tippe:highlight
-    this.scene = new TopScene(stage);
+    this.scene = new TopScene(stage, life);
     this.eye = new Eye(stage, model, this.scene.stands, () => this.scene.body.reach ?? 2);
-    this.verdict = addText(picture, "verdict");
-    this.scalesText = addText(picture, "scales");
-    this.report = reportOf(this, label);
-    const changed = () => stage.invalidate();
+    this.verdict = part("div", { class: "verdict" });
+    this.scalesText = part("div", { class: "scales" });
+    picture.append(this.verdict, this.scalesText);
     this.place = new Place({
-      model, picture, report: this.report, changed,
+      model, picture, life, report: this.report, changed: () => stage.invalidate(),
       inView: () => stage.inView,
       photo: (wide) => {
         this.tick(performance.now(), true); // the screen may not show the present moment yet
-        return photo(stage, this.scene.labels, wide);
+        return this.scene.labels.photo(wide);
       },
     });
     this.player = this.place.player;
-    this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model);
+    this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model, life);
     this.ghost = model.before === undefined ? null : new Ghost(stage);
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
     this.impulse = model.pushes ? new Impulse(stage, this.scene) : null;
@@ -66,8 +68,8 @@ class Top {
 
   // Tells Python and the other parts of the page.
   listen() {
-    const { model, stage } = this, suffix = model.clock ? `:${model.clock}` : "";
-    const onFrames = coalesce(() => this.newFrames()); // if several arrive in one frame of the screen, only the last is read
+    const { model, stage, life } = this, suffix = model.clock ? `:${model.clock}` : "";
+    const onFrames = coalesce(() => this.newFrames(), life); // if several arrive in one frame of the screen, only the last is read
     model.on("frames", onFrames);
     model.on("profile", () => this.newProfile());
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
@@ -75,16 +77,11 @@ class Top {
     const { ghost } = this;
     if (ghost) for (const name of ["before", "azimuth"]) model.on(name, () => ghost.show(model.before ?? null, model.azimuth));
     if (ghost) model.on("azimuth", onFrames);
-    const onHighlight = ({ detail }) => {
+    window.addEventListener(`tippe:highlight${suffix}`, ({ detail }) => {
       this.highlight = detail;
       this.scene.pointedTip.element.textContent = detail?.label ?? "";
       stage.invalidate();
-    };
-    window.addEventListener(`tippe:highlight${suffix}`, onHighlight);
-    return () => {
-      onFrames.cancel();
-      window.removeEventListener(`tippe:highlight${suffix}`, onHighlight);
-    };
+    }, { signal: life });
   }
 
   begin() {
@@ -92,17 +89,8 @@ class Top {
     if (this.measured) this.newMeasured();
     this.newFrames();
     this.place.begin();
-    const forget = this.listen();
-    const isMain = !this.model.clock || this.handle; // that of the page's start
-    if (isMain) window.__tippe.top3d = this.report;
-    return () => {
-      forget();
-      this.place.leave();
-      if (window.__tippe.top3d === this.report) delete window.__tippe.top3d;
-      this.scene.unfollow();
-      this.measured?.leave();
-      this.stage.dispose();
-    };
+    this.listen();
+    if (!this.model.clock || this.handle) report("top3d", this.report, this.life); // that of the page's start
   }
 
   tick(now, held) {
@@ -166,36 +154,23 @@ class Top {
     }
     this.stage.invalidate();
   }
-}
 
-// A report of what is drawn, for tests.
-/** @param {Top} top @param {string} label */
-function reportOf(top, label) {
-  const { scene, stage, eye, verdict } = top;
-  return {
-    get t() { return top.player.t; },
-    get index() { return top.place.said?.index; },
-    get count() { return top.player.frames.count; },
-    get playing() { return top.player.playing; },
-    get position() { return scene.body.position.toArray(); },
-    get quaternion() { return scene.body.quaternion.toArray(); },
-    get eye() { return eye.direction; },
-    get label() { return label; },
-    get verdict() { return verdict.textContent; },
-    get pictures() { return stage.pictures; },
-    get motions() { return { received: top.received, shown: top.shown }; },
-    get highlight() { return scene.pointedAt.visible ? top.highlight?.label : ""; },
+  report = () => {
+    const { player: { t, playing, frames }, place, scene: { body, pointedAt }, stage: { pictures }, eye, label, verdict, received, shown } = this;
+    return {
+      t, playing, pictures, label, index: place.said?.index, count: frames.count, position: body.position.toArray(), quaternion: body.quaternion.toArray(),
+      eye: eye.direction, verdict: verdict.textContent, motions: { received, shown }, highlight: pointedAt.visible ? this.highlight?.label : "",
+    };
   };
 }
 
 /** @param {Rendering<TopModel>} rendering */
-export function renderTop3D({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
+export function renderTop3D(rendering) {
+  const { model, el } = rendering, life = lifeOf(rendering, { look: () => top?.look() });
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
   if (!model.clock || model.tiltable) picture.dataset.picture = "top";
-  const stage = tryStage(picture, { label, texts, fov: 30 });
-  if (!stage) return renderFlat({ model, root, picture, view });
-  const top = new Top(model, stage, { root, picture, label }), dispose = top.begin();
-  view.tippe = { dispose, look: () => top.look() };
-  model.on("remove", dispose);
+  const stage = tryStage(picture, { label, texts, fov: 30, life });
+  const top = stage && new Top(model, stage, { root, picture, label, life });
+  if (top) top.begin();
+  else renderFlat(model, { root, picture, life });
 }

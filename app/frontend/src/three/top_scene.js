@@ -2,13 +2,13 @@
 import * as THREE from "three";
 import { Arrow } from "./arrow.js";
 import { Body } from "./body.js";
-import { frictionCone } from "./cone.js";
 import { colours } from "../colours.js";
 import { niceAbove } from "../data.js";
 import { centreOf, emptyPose } from "../motion/frames.js";
 import { Labels } from "./labels.js";
+import { WideLine } from "./lines.js";
 import { Ribbon, Thread } from "./ribbon.js";
-import { followLook } from "./scene.js";
+import { followScene } from "./scene.js";
 import { TraceLine } from "./trace.js";
 import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
 /** @import { Stage } from "./stage.js" */
@@ -20,41 +20,27 @@ const NEAR = 9, FAR = TABLE - 2; // R: distances between which the table fades, 
 const ABOVE_TABLE = 0.006; // lines lie this far above the table, so that the table does not hide them
 const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // R: the longest arrow of a motion has at most this length
 
-function makeShade() {
-  const shade = new THREE.Mesh(
-    new THREE.PlaneGeometry(2 * SHADE, 2 * SHADE),
-    new THREE.ShadowMaterial({ color: 0x2a2118, opacity: 0.34, depthWrite: false }),
-  );
-  shade.receiveShadow = true;
-  return shade;
-}
-
 function makeSun() {
-  const sun = new THREE.DirectionalLight(0xfff4e2, 2.1);
-  sun.castShadow = true;
+  const sun = Object.assign(new THREE.DirectionalLight(0xfff4e2, 2.1), { castShadow: true });
   sun.shadow.mapSize.set(1024, 1024);
-  sun.shadow.radius = 3;
-  sun.shadow.bias = -0.002;
-  Object.assign(sun.shadow.camera, { left: -3.2, right: 3.2, top: 3.2, bottom: -3.2, near: 4, far: 16 });
+  Object.assign(sun.shadow, { radius: 3, bias: -0.002 });
   return sun;
 }
 
-function makeUnderneath() {
-  const underneath = new THREE.Mesh(new THREE.PlaneGeometry(1.5, 1.5), blobMaterial());
-  underneath.renderOrder = -1;
-  return underneath;
-}
-
-function makeCentre() {
-  const material = new THREE.MeshBasicMaterial({ depthTest: false, transparent: true });
-  const centre = new THREE.Mesh(new THREE.SphereGeometry(0.045, 16, 12), material);
-  centre.renderOrder = 4;
-  return centre;
+// The friction cone: height 1 and radius 1, standing on its tip; scaled to the cone of the moment.
+function frictionCone() {
+  const see = { color: colours.friction, transparent: true, depthTest: false, depthWrite: false };
+  const side = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5),
+    new THREE.MeshBasicMaterial({ ...see, opacity: 0.16, side: THREE.DoubleSide }));
+  const rim = new WideLine({ ...see, linewidth: 2, opacity: 0.8 });
+  rim.setPath(65, (i, put) => put(Math.cos((i * Math.PI) / 32), Math.sin((i * Math.PI) / 32), 1));
+  for (const part of [side, rim]) part.renderOrder = 2;
+  return new THREE.Group().add(side, rim);
 }
 
 export class TopScene {
-  /** @param {Stage} stage */
-  constructor(stage) {
+  /** @param {Stage} stage @param {AbortSignal} life */
+  constructor(stage, life) {
     const { scene, renderer } = stage;
     this.stage = stage;
     this.moment = emptyPose(); // the pose at the player's time
@@ -68,9 +54,11 @@ export class TopScene {
     this.background = scene.background = new THREE.Color();
     this.fog = scene.fog = new THREE.Fog(0, NEAR, FAR);
     this.table = makeTable();
-    this.shade = makeShade();
+    this.shade = new THREE.Mesh(new THREE.PlaneGeometry(2 * SHADE, 2 * SHADE), new THREE.ShadowMaterial({ opacity: 0.34, depthWrite: false }));
+    this.shade.receiveShadow = true;
     this.sun = makeSun();
-    this.underneath = makeUnderneath();
+    this.underneath = new THREE.Mesh(new THREE.PlaneGeometry(1.5, 1.5), blobMaterial());
+    this.underneath.renderOrder = -1;
     this.body = new Body();
     scene.add(this.table, this.shade, new THREE.HemisphereLight(0xffffff, 0xb9a88f, 1.7), this.sun, this.sun.target);
     scene.add(this.underneath, this.body);
@@ -93,13 +81,15 @@ export class TopScene {
     };
     this.pointedAt = new Arrow(0, { radius: 0.05, through: 0.85 }); // what a text points at, shown alone
     this.cone = frictionCone();
-    this.centre = makeCentre();
+    this.centre = new THREE.Mesh(new THREE.SphereGeometry(0.045, 16, 12), new THREE.MeshBasicMaterial({ depthTest: false, transparent: true }));
+    this.centre.renderOrder = 4;
     scene.add(...Object.values(this.arrows), this.pointedAt, this.cone, this.centre);
     this.labels = new Labels(stage);
     const vector = (letter) => this.labels.add(letter, "vector");
     this.tips = { force: vector("F"), omega: vector("ω"), momentum: vector("L"), centre: vector("G") };
     this.pointedTip = vector("");
-    this.unfollow = followLook((look) => this.dress(look));
+    followScene((look) => this.dress(look), life);
+    this.fitTo(1);
   }
 
   dress(look) {

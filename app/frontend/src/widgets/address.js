@@ -1,11 +1,9 @@
 // The page's address, history and keys. The address contains what a person has set; a room, a level or a step of the
 // lesson that was opened is an entry of the browser's history.
-import { onLettingGo } from "./press.js";
+import { lifeOf } from "../life.js";
+import { isWriting, onLettingGo } from "./press.js";
 
 const MUTE = ["Control", "Shift", "Alt", "Meta", "Tab"]; // keys that change nothing by themselves
-
-const isWriting = (target) => target.isContentEditable || target.matches?.(
-  "textarea, select, input:not([type=range]):not([type=checkbox]):not([type=radio]):not([type=button])");
 
 // The parameter that counts a key: those with which the operating system undoes and redoes.
 /** @param {Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">} event @returns {"undone" | "redone" | null} */
@@ -28,7 +26,7 @@ export function inLook(search, present) {
 
 /** @param {Rendering<AddressModel>} rendering */
 export function renderAddress({ model }) {
-  const listening = new AbortController(), options = { capture: true, signal: listening.signal };
+  const signal = lifeOf({ model }), options = { capture: true, signal };
   const down = () => {
     model.gesture += 1;
     model.held = true;
@@ -38,9 +36,9 @@ export function renderAddress({ model }) {
   };
   window.addEventListener("pointerdown", down, options);
   window.addEventListener("keyup", up, options);
-  onLettingGo(up, listening.signal);
+  onLettingGo(up, signal);
   const onKey = (/** @type {KeyboardEvent} */ event) => {
-    const writing = isWriting(event.composedPath()[0]), step = writing ? null : stepOf(event);
+    const writing = isWriting(event), step = writing ? null : stepOf(event);
     if (step) {
       event.preventDefault();
       model[step] += 1;
@@ -68,5 +66,4 @@ export function renderAddress({ model }) {
   }, options);
   model.on("reloads", () => location.reload());
   model.page = location.origin + location.pathname;
-  model.on("remove", () => listening.abort());
 }

@@ -1,6 +1,7 @@
 // The playback bar of a top that has no time line: buttons, the frames, the speed, and what is shown.
 import { colours } from "../colours.js";
 import { fill, local } from "../data.js";
+import { follow } from "../life.js";
 import { icon, part } from "./parts.js";
 /** @import { Player } from "../motion/player.js" */
 
@@ -27,21 +28,17 @@ export class Bar {
     this.time = part("div", { class: "time" });
     root.append(bar);
     picture.append(this.time);
-    const follow = () => {
+    follow(model, ["speed"], () => {
       // Python may set a speed that is not in the list: add it, so that the bar shows the true one.
       if (!SPEEDS.some((n) => 1 / n === model.speed)) speed.append(new Option(fill(texts.faster, { times: model.speed }), String(model.speed)));
       speed.value = String(model.speed);
-    };
-    model.on("speed", follow);
-    follow();
+    });
   }
 
   shows(model, name) {
     const [text, title] = model.texts.shows[name], box = part("input", { type: "checkbox", name, "aria-label": title, onchange: () => (model[name] = box.checked) }), words = part("span");
-    const follow = () => (box.checked = model[name]);
     words.innerHTML = text;
-    model.on(name, follow);
-    follow();
+    follow(model, [name], () => (box.checked = model[name]));
     return part("label", { title, style: `--swatch: ${SHOWS[name]}` }, box, part("span", { class: "swatch" }), words);
   }
 

@@ -1,5 +1,6 @@
 // A text to copy, and a button that copies it, even on a page without https, where the browser's own way is forbidden.
-import { follow, frame } from "../controls/frame.js";
+import { frame } from "../controls/frame.js";
+import { follow } from "../life.js";
 import { part } from "./parts.js";
 
 const STYLE = `:host > div { width: 100%; } .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start; }
@@ -7,26 +8,26 @@ textarea { flex: 1 1 0; min-width: 0; font: var(--t-s)/1.5 ui-monospace, monospa
 .outline { min-width: 76px; text-align: center; }`;
 const SAID_MS = 1500;
 
-/** @param {string} text @param {HTMLInputElement | HTMLTextAreaElement} field which contains it */
-export async function copyText(text, field) {
-  field.select();
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    document.execCommand("copy");
-  }
+/** A button that copies the text of a field, and says so. @param {HTMLInputElement | HTMLTextAreaElement} field @param {string} kind @param {[copy: string, copied: string]} words */
+export function copyButton(field, kind, [copy, copied]) {
+  const button = part("button", { type: "button", class: kind, onclick: async () => {
+    field.select();
+    try {
+      await navigator.clipboard.writeText(field.value);
+    } catch {
+      document.execCommand("copy");
+    }
+    button.textContent = copied;
+    setTimeout(() => (button.textContent = copy), SAID_MS);
+  } }, copy);
+  return button;
 }
 
 /** @param {Rendering<CopyModel>} rendering */
 export function renderCopy(rendering) {
-  const { model } = rendering, [copy, copied] = model.button;
+  const { model } = rendering;
   const area = part("textarea", { readonly: true, spellcheck: "false", onfocus: () => area.select() });
-  const button = part("button", { type: "button", class: "outline", onclick: async () => {
-    await copyText(model.text, area);
-    button.textContent = copied;
-    setTimeout(() => (button.textContent = copy), SAID_MS);
-  } }, copy);
-  frame(rendering, STYLE, part("div", { class: "copy" }, area, button));
+  frame(rendering, STYLE, part("div", { class: "copy" }, area, copyButton(area, "outline", model.button)));
   follow(model, ["text", "label", "rows"], () => {
     area.value = model.text;
     area.rows = model.rows;

@@ -1,12 +1,12 @@
 // The code to copy, and how it would look; or why no other page may show this one.
 import { part } from "./parts.js";
-import { copyText } from "./copy.js";
-import { follow, frame, whenSeen } from "../controls/frame.js";
+import { copyButton } from "./copy.js";
+import { frame, whenSeen } from "../controls/frame.js";
+import { follow } from "../life.js";
 import { fill, penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
 
 const SMALL = 240; // px: the width of a preview
-const SAID_MS = 1500;
 const STYLE = `.all { display: flex; flex-flow: row wrap; align-items: center; gap: 8px; } .says { flex: 1 1 150px; } .says b { display: block; } textarea, .small, .preview { flex: 1 1 100%; }
 textarea { font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1px solid var(--line-2); border-radius: 6px; color: inherit; background: none; resize: none; min-width: 0; }
 .preview { display: block; flex: none; border: 1px solid var(--line-2); border-radius: 6px; } .outline { min-width: 76px; text-align: center; }`;
@@ -15,16 +15,13 @@ textarea { font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1
 export function renderEmbed(rendering) {
   const { model } = rendering, { texts } = model, others = model.frames.split(/\s+/).filter((each) => each && !["'self'", "'none'"].includes(each));
   const area = part("textarea", { readonly: true, rows: 4, spellcheck: "false", "aria-label": texts.title, hidden: !others.length, onfocus: () => area.select() });
-  const copy = part("button", { type: "button", class: "outline", hidden: !others.length, onclick: async () => {
-    await copyText(model.code, area);
-    copy.textContent = texts.copied;
-    setTimeout(() => (copy.textContent = texts.copy), SAID_MS);
-  } }, texts.copy);
+  const copy = copyButton(area, "outline", [texts.copy, texts.copied]);
+  copy.hidden = !others.length;
   const preview = part("canvas", { class: "preview", role: "img", "aria-label": texts.preview, hidden: true });
   const who = !others.length ? texts.refused : others.includes("*") ? "" : fill(texts.only, { sites: others.join(", ") });
   const all = part("div", { class: "all" }, part("span", { class: "says" }, part("b", {}, texts.title), part("span", { class: "small" }, texts.says)), copy, area, preview,
     part("p", { class: "small", hidden: !who }, who));
-  frame(rendering, STYLE, all);
+  const life = frame(rendering, STYLE, all);
   const look = () => {
     area.value = model.code;
     const pictures = others.length && all.clientWidth ? photosOf(SMALL).map(({ picture }) => picture) : [];
@@ -33,6 +30,6 @@ export function renderEmbed(rendering) {
     Object.assign(preview, { width: SMALL, height: Math.max(...pictures.map(({ height }) => height)) });
     pictures.forEach((picture, i) => penOf(preview).drawImage(picture, (i * SMALL) / pictures.length, 0));
   };
-  whenSeen(rendering, all, look);
+  whenSeen(all, look, life);
   follow(model, ["code"], () => (area.value = model.code));
 }

@@ -2,9 +2,11 @@
 // and while it is made, how far that is, and a button that stops it.
 import { renderStretch } from "../controls/stretch.js";
 import { frame, whenSeen } from "../controls/frame.js";
+import { atEnd } from "../life.js";
 import { progress } from "../controls/style.js";
-import { part, say } from "../lab/parts.js";
+import { part, say } from "./parts.js";
 import { HIGH, labInSight, timesOf, WIDE } from "../motion/filmed.js";
+import { modelOf } from "../stand_in.js";
 import { save } from "./saving.js";
 
 const MOST_S = 30, TELL_MS = 50, HD = { width: WIDE, height: HIGH, rate: 30 };
@@ -50,7 +52,7 @@ class Films {
     this.said = part("p", { class: "small", role: "status" });
     this.stretch = part("div");
     this.inner = /** @type {Rendering<FilmModel>["view"]} */ ({});
-    frame(rendering, STYLE, part("div", { class: "all" }, part("span", { class: "says" }, part("b", {}, texts.title), part("span", { class: "small" }, texts.says)),
+    this.life = frame(rendering, STYLE, part("div", { class: "all" }, part("span", { class: "says" }, part("b", {}, texts.title), part("span", { class: "small" }, texts.says)),
       this.files, this.wait, this.stretch, this.said));
     this.offer();
   }
@@ -77,14 +79,11 @@ class Films {
 
   // The two ends are the control of other rooms; here nobody but this hears of it.
   bound(value) {
-    /** @type {any} */
-    const ends = { texts: this.texts, label: this.texts.stretch, start: 0, end: this.end, step: 0.01, digits: 2, unit: "s", value, pulled: [0, 0, 0], on() {} };
-    this.ends = new Proxy(ends, { set: (of, name, news) => {
-      of[name] = news;
-      if (name === "pulled") of.value = news.slice(1);
+    const ends = (this.ends = modelOf({ texts: this.texts, label: this.texts.stretch, start: 0, end: this.end, step: 0.01, digits: 2, unit: "s", value, pulled: [0, 0, 0] }));
+    ends.on("pulled", () => {
+      ends.value = ends.pulled.slice(1);
       this.look();
-      return true;
-    } });
+    });
     renderStretch({ model: this.ends, el: this.stretch, view: this.inner });
   }
 
@@ -143,7 +142,8 @@ class Films {
 /** @param {Rendering<FilmModel>} rendering */
 export function renderFilm(rendering) {
   const films = new Films(rendering), look = () => !films.making && films.look();
-  whenSeen(rendering, films.said.parentElement, look, () => {
+  whenSeen(films.said.parentElement, look, films.life);
+  atEnd(films.life, () => {
     films.stopped = true;
     films.inner.tippe?.dispose();
   });

@@ -1,33 +1,26 @@
 // A top that moves once, on its own clock: a button that plays it, the time and the tilt; for a measured film, also the
 // axis as seen on it.
 import { Top } from "../lab/top.js";
-import { icon, part, say } from "../lab/parts.js";
+import { icon, part, say } from "./parts.js";
 import { coalesce, float32 } from "../data.js";
-import { seek } from "../figures/seeking.js";
+import { followClock, seek } from "../figures/seeking.js";
+import { frame } from "../controls/frame.js";
+import { timed } from "../controls/style.js";
+import { follow } from "../life.js";
 
 const PACE = 1 / 8; // in units of the real top's speed
-const STYLE = `<style>
-  .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene) }
-  .top { position: absolute; inset: 0 }
-  .pill { position: absolute; left: 16px; bottom: 12px; padding: 4px 12px; border-radius: 16px; background: var(--pill);
-    color: var(--scene-ink); font: 600 calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); font-variant-numeric: tabular-nums; pointer-events: none }
-  .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--scene-faint) }
-  button { position: absolute; right: 16px; bottom: 12px; width: 44px; height: 44px; border: 0; border-radius: 50%; cursor: pointer;
-    display: grid; place-items: center; background: var(--scene-ink); color: var(--scene) }
-  button:focus-visible { outline: 3px solid var(--focus); outline-offset: 2px }
-  [hidden] { display: none !important }</style>`;
+const style = `${timed} .frame, .film { height: 100%; } .film { position: relative; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene); }
+.none { position: absolute; inset: auto 16px 16px; color: var(--scene-faint); } .film .round { position: absolute; right: 16px; bottom: 12px; }`;
 
 /** @param {Rendering<FilmStageModel>} rendering */
-export function renderFilmStage({ model, el, view }) {
-  view.tippe?.dispose();
-  const { texts, clock } = model;
-  el.innerHTML = STYLE;
-  const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
+export function renderFilmStage(rendering) {
+  const { model } = rendering, { texts, clock } = model, place = part("div", { class: "film" }), life = frame(rendering, style, place);
+  const top = new Top({ texts, life, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, speed: PACE, end: Infinity, unit: 1 }) });
   Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
   const pill = part("div", { class: "pill", hidden: true });
   const none = part("p", { class: "none" }, model.none);
-  const play = part("button", { onclick: () => put({ playing: !top.model.playing }) });
-  el.append(part("div", { class: "film" }, top.element, pill, none, play));
+  const play = part("button", { type: "button", class: "round", onclick: () => put({ playing: !top.model.playing }) });
+  place.append(top.element, pill, none, play);
 
   function put(changes) {
     top.put(changes);
@@ -36,11 +29,11 @@ export function renderFilmStage({ model, el, view }) {
     play.setAttribute("aria-label", texts[name]);
   }
   let tilts = new Float32Array(), shown = model.frames, shows = false;
-  const hear = ({ detail: { t, index, playing } }) => {
+  followClock(({ t, index, playing }) => {
     if (playing !== top.model.playing) put({ playing });
     const tilt = tilts[Math.min(index, tilts.length - 1)];
     pill.textContent = tilt === undefined ? "" : say(texts, texts.pill, { t: [t, 2], tilt: [tilt, 0] });
-  };
+  }, clock, life);
   const show = coalesce(() => {
     const some = Boolean(float32(model.frames).length);
     tilts = float32(model.tilts);
@@ -52,14 +45,6 @@ export function renderFilmStage({ model, el, view }) {
     if (some) top.begin();
     if (some && shows && model.anew && shown !== model.frames) seek(model.start, false, clock);
     [shown, shows] = [model.frames, some];
-  });
-  for (const name of ["frames", "profile", "tilts", "measured", "a"]) model.on(name, show);
-  window.addEventListener(`tippe:clock:${clock}`, hear);
-  show();
-  view.tippe = { dispose() {
-    show.cancel();
-    window.removeEventListener(`tippe:clock:${clock}`, hear);
-    top.leave();
-  } };
-  model.on("remove", () => view.tippe?.dispose());
+  }, life);
+  follow(model, ["frames", "profile", "tilts", "measured", "a"], show);
 }

@@ -1,6 +1,9 @@
 // The page by keyboard and screen reader: keys for the clock, the list of keys, what the top does in words, and the
 // tour.
+import { debounce } from "../data.js";
+import { atEnd, follow, lifeOf } from "../life.js";
 import { find } from "./finding.js";
+import { part } from "./parts.js";
 import { guideStyle } from "../style.js";
 import { Tour, tourFrame } from "./tour.js";
 
@@ -19,26 +22,15 @@ const paragraphs = (said) => said.map((words) => `<p>${words}</p>`).join("");
 // For screen readers: how the top rolls, while its constants are shown. The stage of the Lab says what it does there.
 /** @param {GuideModel} model @param {AbortSignal} signal */
 function speak(model, signal) {
-  const { texts } = model, live = document.createElement("div");
   // A live region is spoken only if it existed before its text was set.
-  live.setAttribute("role", "status");
-  live.setAttribute("aria-label", texts.now);
-  live.style.cssText = "position: absolute; top: 0; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap";
+  const live = part("div", { role: "status", "aria-label": model.texts.now,
+    style: "position: absolute; top: 0; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap" });
   (find("[role=main], main") ?? document.body).append(live);
-  let later;
-  const say = () => {
-    clearTimeout(later);
-    later = setTimeout(() => {
-      const heard = model.tour ? model.said : "";
-      if (live.textContent !== heard) live.textContent = heard;
-    }, SAY_MS);
-  };
-  for (const name of ["said", "tour"]) model.on(name, say);
-  say();
-  signal.addEventListener("abort", () => {
-    clearTimeout(later);
-    live.remove();
-  });
+  follow(model, ["said", "tour"], debounce(() => {
+    const heard = model.tour ? model.said : "";
+    if (live.textContent !== heard) live.textContent = heard;
+  }, SAY_MS, signal));
+  atEnd(signal, () => live.remove());
 }
 
 /** @param {HTMLDialogElement[]} dialogs the first lists the keys @param {Tour} tour @param {AbortSignal} signal */
@@ -62,39 +54,34 @@ function listen(dialogs, tour, signal) {
 
 /** @param {Pick<Rendering<GuideModel>, "model">} rendering */
 export function renderGuide({ model }) {
-  const { texts } = model, listening = new AbortController(), { signal } = listening;
-  const layer = document.createElement("div"); // over the page, outside all its parts
+  const { texts } = model, signal = lifeOf({ model });
+  const layer = part("div"); // over the page, outside all its parts
   const over = layer.attachShadow({ mode: "open" });
   over.innerHTML = `<style>${guideStyle}</style>${listOf(texts)}${statementOf(/** @type {any} */ (texts))}${tourFrame(texts)}`;
   speak(model, signal);
   document.body.append(layer);
   const tour = new Tour(texts, over, signal);
   /** @type {(root: ParentNode, selector: string) => any} */
-  const part = (root, selector) => root.querySelector(selector);
-  const dialogs = { keys: part(over, ".list"), statement: part(over, ".statement") };
+  const within = (root, selector) => root.querySelector(selector);
+  const dialogs = { keys: within(over, ".list"), statement: within(over, ".statement") };
   listen(Object.values(dialogs), tour, signal);
   const ask = (/** @type {any} */ { detail }) => {
     if (detail === "tour") return tour.begin(document.activeElement);
     dialogs[detail].showModal();
-    part(dialogs[detail], "h2").focus(); // a long statement is read from its title on
+    within(dialogs[detail], "h2").focus(); // a long statement is read from its title on
   };
   window.addEventListener("tippe:guide", ask, { signal });
   for (const dialog of Object.values(dialogs)) {
-    part(dialog, ".close").onclick = () => dialog.close();
+    within(dialog, ".close").onclick = () => dialog.close();
     dialog.onclick = (event) => event.target === dialog && dialog.close();
   }
-  part(over, ".again").onclick = () => {
+  within(over, ".again").onclick = () => {
     dialogs.keys.close();
     tour.begin(document.activeElement);
   };
-  const offer = () => {
-    part(over, ".again").hidden = !model.tour;
+  follow(model, ["tour"], () => {
+    within(over, ".again").hidden = !model.tour;
     if (!model.tour && tour.isOn) tour.end();
-  };
-  model.on("tour", offer);
-  offer();
-  model.on("remove", () => {
-    listening.abort();
-    layer.remove();
   });
+  atEnd(signal, () => layer.remove());
 }

@@ -1,29 +1,22 @@
 // The row at the top of the page: the top, the tabs, the level, undo, redo, Share, and a menu with everything else.
 import { ask } from "../data.js";
+import { follow, isDark, lifeOf, onLook } from "../life.js";
 import { Choice, part } from "./parts.js";
 import { listening } from "../motion/heard.js";
 import { headStyle } from "./head_style.js";
 
-// A choice among options that may change: its buttons are created again when their words change.
-class Several {
+// A choice among rows [name, word, room, hint] that may change.
+/** @extends {Choice} */
+class Several extends Choice {
   /** @param {"radio" | "tab"} role @param {string} label @param {(name: string) => void} choose */
   constructor(role, label, choose) {
-    this.make = (options) => new Choice({ role, label, options, choose });
-    /** @type {any} */
-    this.choice = null;
-    this.element = part("div", { class: role === "tab" ? "tabs" : "switch" });
-    this.known = "";
+    super({ role, label, choose, kind: role === "tab" ? "tabs" : "switch" });
   }
 
-  /** @param {[name: string, word: string, ...rest: any[]][]} options @param {string} chosen */
-  show(options, chosen) {
-    const known = JSON.stringify(options.map(([name, word]) => [name, word]));
-    if (known !== this.known) {
-      this.known = known;
-      this.choice = this.make(options.map(([name, word, , hint]) => [name, word, hint]));
-      this.element.replaceChildren(this.choice.element);
-    }
-    this.choice.show(chosen);
+  /** @param {string} chosen @param {any[][]} [rows] */
+  show(chosen, rows) {
+    if (rows) this.offer(rows.map(([name, word, , hint]) => [name, word, hint]));
+    super.show(chosen);
   }
 }
 
@@ -95,9 +88,7 @@ class Head {
     ask(this.model, [++this.count, name, value]);
   }
 
-  roomOf(kind, chosen) {
-    return this.model.state[kind].find(([name]) => name === chosen)[2];
-  }
+  roomOf(kind, chosen) { return this.model.state[kind].find(([name]) => name === chosen)[2]; }
 
   // Switches the tab at once; Python is told, and creates what does not exist yet.
   turn(room) {
@@ -109,33 +100,33 @@ class Head {
   go(room) {
     const { tabs } = this.model.state;
     this.turn(room);
-    this.tabs.choice.show(tabs.find(([, , first]) => first === room)[0]);
+    this.tabs.show(tabs.find(([, , first]) => first === room)[0]);
     this.ask("room", room);
   }
 
   // Another room of the tab.
   goBelow(room) {
     this.turn(room);
-    this.rooms.choice.show(room);
+    this.rooms.show(room);
     this.ask("room", room);
   }
 
   goLevel(level) {
-    for (const levels of this.levels) levels.choice.show(level);
+    for (const levels of this.levels) levels.show(level);
     this.ask("level", level);
   }
 
   show() {
     const { state } = this.model;
     if (!state.tabs || state.answered < this.count) return; // newer requests are on their way
-    this.tabs.show(state.tabs, state.tab);
-    for (const levels of this.levels) levels.show(state.levels, state.level);
+    this.tabs.show(state.tab, state.tabs);
+    for (const levels of this.levels) levels.show(state.level, state.levels);
     for (const each of this.session) each.hidden = !state.levels.length;
     this.below.hidden = !state.rooms.length;
-    if (state.rooms.length) this.rooms.show(state.rooms, state.room);
+    if (state.rooms.length) this.rooms.show(state.room, state.rooms);
     for (const share of this.shares) share.setAttribute("aria-expanded", String(state.shares));
     this.tour.hidden = !state.tour;
-    this.languages.show(state.languages, state.language);
+    this.languages.show(state.language, state.languages);
     for (const { name, box } of this.switches) box.checked = state[name];
     for (const [undo, redo] of this.steps) [undo.disabled, redo.disabled] = [!state.undo, !state.redo];
     this.showToys(state);
@@ -143,11 +134,8 @@ class Head {
     this.look();
   }
 
-  // Light or dark, like the page.
   look = () => {
-    const dark = document.documentElement.dataset.look?.startsWith("dark");
-    for (const each of [this.row, this.below]) each.dataset.look = dark ? "dark" : "light";
-    for (const { name, box } of this.switches) if (name === "dark") box.checked = Boolean(dark); // the system's look, unless a person chose
+    for (const { name, box } of this.switches) if (name === "dark") box.checked = isDark(); // the system's look, unless a person chose
   };
 
   /** @param {any} state */
@@ -162,11 +150,9 @@ class Head {
 }
 
 /** @param {Rendering<HeadModel>} rendering */
-export function renderHead({ model, el, view }) {
-  const head = new Head({ model, el, view }), leaving = new AbortController(), { signal } = leaving;
-  model.on("state", () => head.show());
-  head.show();
+export function renderHead(rendering) {
+  const head = new Head(rendering), signal = lifeOf(rendering);
+  follow(rendering.model, ["state"], () => head.show());
   for (const type of ["pointerdown", "keydown"]) window.addEventListener(type, head.leave, { signal, capture: true });
-  window.addEventListener("tippe:look", head.look, { signal });
-  model.on("remove", () => leaving.abort());
+  onLook(head.look, signal);
 }

@@ -1,7 +1,10 @@
 // The lines of the derivation: each equation, the present values of its two sides, and the symbols that can be pointed
 // at.
 import { local, rowBefore } from "../data.js";
+import { followClock } from "../figures/seeking.js";
+import { atEnd, lifeOf } from "../life.js";
 import { style } from "./lines_style.js";
+import { part, typeset } from "./parts.js";
 
 const DRAWN_MS = 200; // ms between two updates of the numbers
 
@@ -14,9 +17,9 @@ export function figures(value, digits) {
   return local(String(text));
 }
 
-/** @param {Float64Array} part @param {number} digits */
-export const said = (part, digits) =>
-  part.length === 1 ? figures(part[0], digits) : `(${Array.from(part, (x) => figures(x, 6)).join("; ")})`;
+/** @param {Float64Array} side @param {number} digits */
+export const said = (side, digits) =>
+  side.length === 1 ? figures(side[0], digits) : `(${Array.from(side, (x) => figures(x, 6)).join("; ")})`;
 
 // The row closest to a time within its nutation; t is the first number of each row.
 /** @param {{ values: Float64Array, width: number, period: number }} table @param {number} now */
@@ -29,24 +32,11 @@ export function rowAt({ values, width, period }, now) {
 // The browser's rendering of an equation contains other characters, and invisible spaces.
 const bare = (node) => node.textContent.replace(/[\s\u2061\u200b\u2062]/g, "").replace("\u20d7", "→");
 
-function make(parent, kind, name = "", text = "") {
-  const node = document.createElement(kind);
-  if (name) node.className = name;
-  node.textContent = text;
-  parent.append(node);
-  return node;
-}
-
 class Lines {
   /** @param {LinesModel} model */
   constructor(model, el) {
     this.model = model;
-    this.root = document.createElement("div");
-    this.root.className = "lines";
-    make(this.root, "style", "", style);
-    this.tip = document.createElement("div");
-    this.tip.className = "tip";
-    this.tip.hidden = true;
+    this.tip = part("div", { class: "tip", hidden: true });
     this.now = this.shown = 0;
     /** @type {{ name: string, plane: string, anchor: HTMLElement } | null} */
     this.pointed = null;
@@ -54,7 +44,7 @@ class Lines {
     this.tables = {};
     this.read();
     this.rows = model.lines.map((line) => this.line(line));
-    this.root.append(this.tip);
+    this.root = part("div", { class: "lines" }, part("style", {}, style), ...this.rows.map(({ box }) => box), this.tip);
     el.append(this.root);
     this.draw();
   }
@@ -67,9 +57,7 @@ class Lines {
     });
   }
 
-  row(plane) {
-    return rowAt(this.tables[plane], this.now);
-  }
+  row(plane) { return rowAt(this.tables[plane], this.now); }
 
   valueOf(name, plane) {
     const { at, size } = this.model.symbols[name];
@@ -102,27 +90,17 @@ class Lines {
   }
 
   line(line) {
-    const { words } = this.model, box = make(this.root, "div", "line"), head = make(box, "div", "head");
-    const button = make(head, "button", "", line.number), eq = make(head, "div", "eq");
-    button.setAttribute("aria-expanded", "false");
-    button.setAttribute("aria-label", `${line.number}: ${words.symbols}`);
-    eq.tabIndex = 0; // so that it can be scrolled by keyboard
-    eq.setAttribute("role", "group");
-    eq.setAttribute("aria-label", `${words.equation} ${line.number}`);
-    if (window.katex) window.katex.render(`\\displaystyle ${line.tex}`, eq, { output: "mathml", throwOnError: false });
-    else eq.textContent = line.tex;
+    const { words } = this.model, eq = typeset(line.tex, { class: "eq", role: "group", "aria-label": `${words.equation} ${line.number}` });
     this.mark(line, eq);
-    make(box, "div", "", line.words);
-    const sides = make(box, "div", "sides"), list = make(box, "div", "symbols");
-    sides.dataset.line = line.number;
-    list.hidden = true;
-    const entries = line.symbols.map((name) => [name, this.entry(line, name, list)]);
-    button.addEventListener("click", () => {
+    const entries = line.symbols.map((name) => [name, this.entry(line, name)]);
+    const sides = part("div", { class: "sides", "data-line": line.number }), list = part("div", { class: "symbols", hidden: true }, ...entries.map(([, entry]) => entry));
+    const button = part("button", { "aria-expanded": "false", "aria-label": `${line.number}: ${words.symbols}`, onclick: () => {
       list.hidden = !list.hidden;
       button.setAttribute("aria-expanded", String(!list.hidden));
       this.draw();
-    });
-    return { line, sides, list, entries };
+    } }, line.number);
+    const box = part("div", { class: "line" }, part("div", { class: "head" }, button, eq), part("div", {}, line.words), sides, list);
+    return { line, box, sides, list, entries };
   }
 
   // The symbols in an equation that can be pointed at.
@@ -140,14 +118,9 @@ class Lines {
     }
   }
 
-  entry(line, name, list) {
-    const entry = make(list, "div");
-    entry.tabIndex = 0;
-    entry.setAttribute("role", "note");
-    for (const [on, off] of [["pointerenter", "pointerleave"], ["focus", "blur"]]) {
-      entry.addEventListener(on, () => this.point(name, line.plane, entry));
-      entry.addEventListener(off, () => this.point(null));
-    }
+  entry(line, name) {
+    const on = () => this.point(name, line.plane, entry), off = () => this.point(null);
+    const entry = part("div", { tabindex: 0, role: "note", onpointerenter: on, onfocus: on, onpointerleave: off, onblur: off });
     return entry;
   }
 
@@ -157,12 +130,8 @@ class Lines {
       const values = this.row(line.plane), { at, size, scale } = line;
       const left = values.subarray(at, at + size), right = values.subarray(at + size, at + 2 * size);
       const apart = Math.max(...left.map((x, i) => Math.abs(x - right[i]))) / scale;
-      sides.replaceChildren();
-      for (const [word, text] of [[words.left, said(left, 10)], [words.right, said(right, 10)], [words.differ, figures(apart, 2)]]) {
-        sides.append(`${word} `);
-        make(sides, "b", "", text);
-        sides.append("  ");
-      }
+      const all = [[words.left, said(left, 10)], [words.right, said(right, 10)], [words.differ, figures(apart, 2)]];
+      sides.replaceChildren(...all.flatMap(([word, text]) => [`${word} `, part("b", {}, text), "  "]));
       sides.dataset.apart = apart;
       if (list.hidden) continue;
       for (const [name, entry] of entries) {
@@ -174,7 +143,7 @@ class Lines {
   }
 
   // With a delay, so that the last moment before a pause is shown too.
-  tick(t) {
+  tick({ t }) {
     this.now = t;
     this.due ??= setTimeout(() => {
       this.due = undefined;
@@ -186,14 +155,11 @@ class Lines {
 
 /** @param {Rendering<LinesModel>} rendering */
 export function renderLines({ model, el }) {
-  const lines = new Lines(model, el), onClock = ({ detail: { t } }) => lines.tick(t);
+  const lines = new Lines(model, el), life = lifeOf({ model });
   model.on("periods", () => { // the last of the parameters that are sent together
     lines.read();
     lines.draw();
   });
-  window.addEventListener(`tippe:clock:${model.clock}`, onClock);
-  model.on("remove", () => {
-    clearTimeout(lines.due);
-    window.removeEventListener(`tippe:clock:${model.clock}`, onClock);
-  });
+  followClock((moment) => lines.tick(moment), model.clock, life);
+  atEnd(life, () => clearTimeout(lines.due));
 }

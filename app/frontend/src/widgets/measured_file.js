@@ -2,8 +2,10 @@
 // too long; a saved film is a short text and is kept whole. A zip, a workbook or a file of Tracker's own is sent whole.
 import { colours } from "../colours.js";
 import { fill } from "../data.js";
+import { lifeOf } from "../life.js";
+import { part } from "./parts.js";
 
-const FRAME = `<style>
+const STYLE = `
   .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink) }
   label { display: inline-flex; align-items: center; min-height: 40px; padding: 0 20px; border-radius: 6px; font-weight: 600; cursor: pointer;
     background: var(--ink); color: var(--card); white-space: nowrap }
@@ -14,9 +16,9 @@ const FRAME = `<style>
   .says { flex: 1 0 100%; color: var(--faint); font-size: calc(12px * var(--type, 1)) } .says:empty { display: none }
   .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.accent}26; pointer-events: none;
     border: 3px dashed var(--focus); box-sizing: border-box; font: 600 calc(20px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink) }
-  .over b { background: var(--card); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }</style>
-  <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,.zip,.xlsx,.xlsm,.xls,.ods,.trk,.trz,text/*"></label><textarea rows="1"></textarea>
-    <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
+  .over b { background: var(--card); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }
+  `;
+const KINDS = ".csv,.tsv,.txt,.json,.zip,.xlsx,.xlsm,.xls,.ods,.trk,.trz,text/*";
 const ABOVE = 3; // lines above the values that a table may have
 const SPARE = 1.05; // margin, because lines differ in length
 const MORE = 1.2; // and where that is too little, how many times as many rows are left out in each attempt
@@ -127,18 +129,11 @@ export async function* piecesOf(file, most) {
 }
 
 /** @param {Rendering<MeasuredFileModel>} rendering */
-export function renderMeasuredFile({ model, el, view }) {
-  view.tippe?.dispose();
-  const { texts } = model, leaving = new AbortController(), { signal } = leaving;
-  el.innerHTML = FRAME;
-  /** @returns {any} */
-  const find = (selector) => el.querySelector(selector);
-  const input = find("input"), area = find("textarea"), says = find(".says"), over = find(".over");
-  find("label").prepend(texts.open);
-  find("b").textContent = texts.drop;
-  input.setAttribute("aria-label", texts.choose);
-  area.setAttribute("aria-label", texts.paste);
-  area.placeholder = texts.paste;
+export function renderMeasuredFile(rendering) {
+  const { model, el } = rendering, { texts } = model, signal = lifeOf(rendering);
+  const input = part("input", { type: "file", accept: KINDS, "aria-label": texts.choose }), area = part("textarea", { rows: 1, "aria-label": texts.paste, placeholder: texts.paste });
+  const says = part("div", { class: "says", role: "status" }), over = part("div", { class: "over", hidden: true }, part("b", {}, texts.drop));
+  el.replaceChildren(part("style", {}, STYLE), part("div", { class: "row" }, part("label", {}, texts.open, input), area, says), over);
   let count = Math.max(model.table[2] ?? 0, model.piece[3] ?? 0);
   /** @param {Kept} kept @param {number} size of all that was brought, in bytes @param {string} [name] */
   const send = ([text, each], size, name = "") => {
@@ -182,6 +177,4 @@ export function renderMeasuredFile({ model, el, view }) {
   window.addEventListener("dragover", (event) => shows(event, true), { signal });
   window.addEventListener("dragleave", (event) => event.relatedTarget === null && shows(event, false), { signal });
   window.addEventListener("drop", (event) => shows(event, false) && read(event.dataTransfer?.files[0]), { signal });
-  view.tippe = { dispose: () => leaving.abort() };
-  model.on("remove", () => leaving.abort());
 }

@@ -1,31 +1,26 @@
 // What happened in a run, and when. Clicking an event goes there; the last one that has happened is marked.
-import { seek } from "../figures/seeking.js";
+import { followClock, seek } from "../figures/seeking.js";
+import { frame } from "../controls/frame.js";
+import { follow } from "../life.js";
 import { latest } from "../lab/curves.js";
 import { part } from "./parts.js";
 
 const style = `
-ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; color: var(--ink); }
-button { display: grid; grid-template-columns: 4em 1fr 1.4fr; gap: 0 10px; width: 100%; min-height: 24px; padding: 3px 8px; border: 0;
-  border-radius: 6px; background: none; font: inherit; color: inherit; text-align: left; cursor: pointer; font-variant-numeric: tabular-nums; }
-button:hover { background: color-mix(in srgb, currentColor 8%, transparent); }
-button:focus-visible { outline: 2px solid var(--focus); outline-offset: -2px; }
-b { font-weight: 600; } span { color: var(--faint); } i { font-family: Georgia, serif; } sub { font-size: 0.75em; line-height: 0; }
+ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; }
+button { display: grid; grid-template-columns: 4em 1fr 1.4fr; gap: 0 10px; width: 100%; min-height: 24px; padding: 3px 8px; text-align: left; font-variant-numeric: tabular-nums; }
+span { color: var(--faint); } i { font-family: Georgia, serif; } sub { font-size: 0.75em; line-height: 0; }
 button[aria-current] { box-shadow: inset 3px 0 0 currentColor; }
 @media (max-width: 700px) { button { grid-template-columns: 4.2em 1fr; } span:last-child { grid-column: 2; } }
 `;
 
-/** @param {Pick<Rendering<MomentsModel>, "model" | "el">} rendering */
-export function renderMoments({ model, el }) {
-  const list = part("ol"), listening = new AbortController();
-  el.replaceChildren(part("style", {}, style), list);
+/** @param {Rendering<MomentsModel>} rendering */
+export function renderMoments(rendering) {
+  const { model } = rendering, list = part("ol"), life = frame(rendering, style, list);
   const mark = (t) => {
     const now = latest(model.rows, t);
-    for (const [i, { firstChild }] of [...list.children].entries()) {
-      if (model.rows[i] === now) firstChild.setAttribute("aria-current", "true");
-      else firstChild.removeAttribute("aria-current");
-    }
+    for (const [i, { firstChild }] of [...list.children].entries()) firstChild.ariaCurrent = model.rows[i] === now ? "true" : null;
   };
-  const show = () => {
+  follow(model, ["rows"], () => {
     list.replaceChildren(...model.rows.map(([t, when, word, more]) => {
       const after = part("span");
       after.innerHTML = more;
@@ -33,9 +28,6 @@ export function renderMoments({ model, el }) {
         part("span", {}, when), part("b", {}, word), after));
     }));
     if (model.rows.length) mark(0);
-  };
-  model.on("rows", show);
-  window.addEventListener(`tippe:clock:${model.clock}`, ({ detail: { t } }) => model.rows.length && mark(t), { signal: listening.signal });
-  model.on("remove", () => listening.abort());
-  show();
+  });
+  followClock(({ t }) => model.rows.length && mark(t), model.clock, life);
 }

@@ -1,42 +1,32 @@
 // Messages over the whole page: the server could not do what was requested, will do it later, or is gone.
 import { colours } from "../colours.js";
+import { atEnd, lifeOf } from "../life.js";
+import { part } from "./parts.js";
 
-const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white",
-  font: "14px/1.4 var(--family, system-ui, sans-serif)", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)" };
+const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white", background: colours.ink,
+  font: "14px/1.4 var(--family, system-ui, sans-serif)", boxShadow: "0 2px 8px #0000004d" };
 const FIRST = 500, LONGEST = 8000; // ms between two attempts, each randomly changed by up to half
 
-function notice(style) {
-  const words = document.createElement("div");
-  words.setAttribute("role", "alert");
-  Object.assign(words.style, ABOVE, style);
-  return words;
-}
+/** @param {"alert" | "status"} role @param {object} style */
+const notice = (role, style) => part("div", { role, style: { ...ABOVE, ...style } });
 
 // One sentence, until a person closes it or reloads the page.
 /** @param {Pick<Rendering<FailureModel>, "model">} rendering */
 export function renderFailure({ model }) {
-  const words = notice({ inset: "auto 8px 8px", zIndex: 9998, display: "flex", gap: "12px", alignItems: "center",
-    padding: "8px 8px 8px 16px", background: colours.ink });
-  const close = document.createElement("button");
-  Object.assign(close.style, { font: "inherit", color: "inherit", background: "transparent", border: "1px solid",
-    borderRadius: "6px", padding: "4px 10px", cursor: "pointer" });
-  close.textContent = model.close;
-  close.onclick = () => words.remove();
+  const words = notice("alert", { inset: "auto 8px 8px", zIndex: 9998, display: "flex", gap: "12px", alignItems: "center", padding: "8px 8px 8px 16px" });
+  const close = part("button", { style: { font: "inherit", color: "inherit", background: "transparent", border: "1px solid", borderRadius: "6px", padding: "4px 10px", cursor: "pointer" },
+    onclick: () => words.remove() }, model.close);
   model.on("times", () => {
     words.replaceChildren(model.words, close);
     document.body.append(words);
   });
-  const queue = notice({ inset: "auto 8px 8px", zIndex: 9997, padding: "8px 16px", background: colours.ink });
-  queue.setAttribute("role", "status");
+  const queue = notice("status", { inset: "auto 8px 8px", zIndex: 9997, padding: "8px 16px" });
   model.on("waits", () => {
     queue.textContent = model.waits;
     if (model.waits) document.body.append(queue);
     else queue.remove();
   });
-  model.on("remove", () => {
-    words.remove();
-    queue.remove();
-  });
+  atEnd(lifeOf({ model }), () => [words, queue].forEach((each) => each.remove()));
 }
 
 // A listener that works without the server cancels the event: then there is no message and no reload.
@@ -46,7 +36,7 @@ const tellBack = () => window.dispatchEvent(new CustomEvent("tippe:back", { canc
 // When a server answers again, the page is reloaded: its address contains what was set.
 /** @param {Pick<Rendering<ConnectionModel>, "model">} rendering */
 export function renderConnection({ model }) {
-  const words = notice({ inset: "8px 8px auto", zIndex: 9999, padding: "10px 16px", background: colours.ink, textAlign: "center" });
+  const words = notice("alert", { inset: "8px 8px auto", zIndex: 9999, padding: "10px 16px", textAlign: "center" });
   let recovering = false;
   async function recover() {
     if (recovering) return;
@@ -68,6 +58,5 @@ export function renderConnection({ model }) {
     if (detail === "slow") document.body.append(words);
     else words.remove();
   };
-  window.addEventListener("tippe:answer", /** @type {EventListener} */ (hear));
-  model.on("remove", () => window.removeEventListener("tippe:answer", /** @type {EventListener} */ (hear)));
+  window.addEventListener("tippe:answer", hear, { signal: lifeOf({ model }) });
 }

@@ -1,5 +1,3 @@
 // Resolves when the browser has painted everything that came before the call.
 /** @param {Pick<Rendering<PaintedModel>, "model">} rendering */
-export function renderPainted({ model }) {
-  model.on("sent", () => requestAnimationFrame(() => setTimeout(() => (model.painted = model.sent))));
-}
+export const renderPainted = ({ model }) => model.on("sent", () => requestAnimationFrame(() => setTimeout(() => (model.painted = model.sent))));

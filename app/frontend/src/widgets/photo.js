@@ -3,6 +3,7 @@ import { colours } from "../colours.js";
 import { saveButton } from "../controls/button.js";
 import { local, penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
+import { part } from "./parts.js";
 import { save } from "./saving.js";
 
 const LINE = 1.5; // line height of a caption, in units of the font size
@@ -13,10 +14,8 @@ const moment = (shown) => local(`t = ${shown[0].seconds.toFixed(2)} s, θ = ${sh
 
 /** @param {HTMLCanvasElement[]} pictures to be placed side by side @param {string[]} caption */
 function withCaption(pictures, caption) {
-  const canvas = document.createElement("canvas"), ink = penOf(canvas), high = Math.max(...pictures.map(({ height }) => height));
-  canvas.width = pictures.reduce((sum, { width }) => sum + width, 0);
-  const type = Math.round(canvas.width / 75);
-  canvas.height = high + 2 * type + LINE * type * caption.length;
+  const high = Math.max(...pictures.map(({ height }) => height)), wide = pictures.reduce((sum, { width }) => sum + width, 0), type = Math.round(wide / 75);
+  const canvas = part("canvas", { width: wide, height: high + 2 * type + LINE * type * caption.length }), ink = penOf(canvas);
   ink.fillStyle = "white";
   ink.fillRect(0, 0, canvas.width, canvas.height);
   let x = 0;
@@ -24,10 +23,7 @@ function withCaption(pictures, caption) {
     ink.drawImage(picture, x, 0);
     x += picture.width;
   }
-  ink.fillStyle = colours.ink;
-  ink.textAlign = "center";
-  ink.textBaseline = "top";
-  ink.font = `${type}px system-ui, sans-serif`;
+  Object.assign(ink, { fillStyle: colours.ink, textAlign: "center", textBaseline: "top", font: `${type}px system-ui, sans-serif` });
   caption.forEach((line, i) =>
     ink.fillText(line, canvas.width / 2, high + type + LINE * type * i, 0.98 * canvas.width));
   return canvas;
@@ -35,8 +31,7 @@ function withCaption(pictures, caption) {
 
 /** @param {Rendering<PhotoModel>} rendering */
 export function renderPhoto(rendering) {
-  const { model } = rendering, button = saveButton(rendering, "PNG"), none = document.createElement("span");
-  none.setAttribute("role", "status");
+  const { model } = rendering, button = saveButton(rendering, "PNG"), none = part("span", { role: "status" });
   button.before(none);
   button.onclick = () => {
     const shown = photosOf(model.wide);

@@ -1,4 +1,8 @@
-// A pointer that is pressed anywhere on the page.
+// What a person does anywhere on the page: a pointer that is pressed, and whether a key writes.
+
+/** @param {KeyboardEvent} event */
+export const isWriting = (event) => /** @type {Element} */ (event.composedPath()[0]).matches?.(
+  "textarea, select, input:not([type=range], [type=checkbox], [type=radio], [type=button]), [contenteditable]:not([contenteditable=false]), [contenteditable] *");
 
 // Calls `run` when it is released, or the window loses the focus; not when the focus moves to the pressed element.
 /** @param {() => void} run @param {AbortSignal} signal */
@@ -10,15 +14,10 @@ export function onLettingGo(run, signal) {
 
 // now: the number of the present press, from 1; 0 if nothing is pressed.
 export class Press {
-  constructor() {
+  /** @param {AbortSignal} signal */
+  constructor(signal) {
     this.now = this.count = 0;
-    this.listening = new AbortController();
-    const { signal } = this.listening;
     window.addEventListener("pointerdown", () => (this.now = this.count += 1), { capture: true, signal });
     onLettingGo(() => (this.now = 0), signal);
-  }
-
-  leave() {
-    this.listening.abort();
   }
 }

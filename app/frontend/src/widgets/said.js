@@ -1,7 +1,5 @@
+import { follow } from "../life.js";
+
 // A sentence that changes with what is shown; it uses the page's style sheets.
 /** @param {Pick<Rendering<SaidModel>, "model" | "el">} rendering */
-export function renderSaid({ model, el }) {
-  const show = () => (el.innerHTML = model.text);
-  model.on("text", show);
-  show();
-}
+export const renderSaid = ({ model, el }) => follow(model, ["text"], () => (el.innerHTML = model.text));

@@ -5,7 +5,8 @@ import { frame } from "../controls/frame.js";
 import { coalesce, fill, set, tidy } from "../data.js";
 import { clamp } from "../figures/curves.js";
 import { hideReadout, showReadout } from "../figures/readout.js";
-import { drawn, part } from "./parts.js";
+import { atEnd, onLook } from "../life.js";
+import { drawn, dress, part } from "./parts.js";
 
 const REACH = { mouse: 16, touch: 26 }, RING = 8; // px
 const COLUMN = 30, STEP = 24, HEAD = 7; // px: from the body to the first of the heights, between two of them; of an arrow
@@ -102,17 +103,12 @@ class Bench {
     this.layer = drawn("g");
     this.grips = drawn("g");
     this.svg = drawn("svg", { role: "group", "aria-label": model.texts.label }, this.layer, this.grips);
-    frame(rendering, style, part("div", { class: "drawing", "data-figure": "section" }, this.svg));
-    this.update = coalesce(() => this.show());
-    const sizes = new ResizeObserver(this.update);
-    sizes.observe(this.svg);
-    window.addEventListener("tippe:look", this.update);
+    const life = frame(rendering, style, part("div", { class: "drawing", "data-figure": "section" }, this.svg));
+    this.update = coalesce(() => this.show(), life);
+    new ResizeObserver(this.update).observe(this.svg);
+    onLook(this.update, life);
     model.on("state", this.update);
-    model.on("remove", () => {
-      sizes.disconnect();
-      window.removeEventListener("tippe:look", this.update);
-      hideReadout(this);
-    });
+    atEnd(life, () => hideReadout(this));
     this.listen();
   }
 
@@ -161,9 +157,8 @@ class Bench {
         drawn("circle", { class: "touch", r: 2 * RING }), drawn("circle", { class: "ring", r: RING }))));
     for (const grip of this.grips.children) {
       const [x, z, [label, text], value, low, high] = handles[grip.dataset.name], [px, py] = this.view.at([x, z]);
-      const said = { label, valuetext: text, valuenow: value, valuemin: Math.min(low, value), valuemax: Math.max(high, value) };
-      for (const [name, each] of Object.entries(said)) grip.setAttribute(`aria-${name}`, String(each));
-      grip.setAttribute("transform", `translate(${px.toFixed(1)} ${py.toFixed(1)})`);
+      dress(grip, { "aria-label": label, "aria-valuetext": text, "aria-valuenow": value, "aria-valuemin": Math.min(low, value), "aria-valuemax": Math.max(high, value),
+        transform: `translate(${px.toFixed(1)} ${py.toFixed(1)})` });
       grip.classList.toggle("held", grip.dataset.name === this.held);
     }
   }

@@ -1,8 +1,8 @@
 // The first part of Share: the link, a button to copy it, and its QR code, which can fill the screen of a lecture hall.
-import { copyText } from "./copy.js";
+import { copyButton } from "./copy.js";
+import { follow, lifeOf } from "../life.js";
 import { part } from "./parts.js";
 
-const SAID_MS = 1500;
 const CODE = "background: white; padding: 0; line-height: 0";
 const STYLE = `
 :host { display: block; max-height: none !important; } * { box-sizing: border-box; } [hidden] { display: none !important; }
@@ -26,7 +26,7 @@ const elsewhere = (event) => event.composedPath().some((each) => each instanceof
 
 /** @param {Rendering<ShareHeadModel>} rendering */
 export function renderShareHead({ model, el }) {
-  const { texts } = model, listening = new AbortController();
+  const { texts } = model;
   /** @type {Element | null | undefined} */
   let before;
   const opened = () => (before = document.activeElement?.shadowRoot?.activeElement);
@@ -35,11 +35,6 @@ export function renderShareHead({ model, el }) {
     if (before instanceof HTMLElement) before.focus();
   };
   const link = part("input", { readonly: true, spellcheck: "false", "aria-label": texts.link, onfocus: () => link.select() });
-  const copy = part("button", { type: "button", class: "copy", onclick: async () => {
-    await copyText(model.link, link);
-    copy.textContent = texts.copied;
-    setTimeout(() => (copy.textContent = texts.copy), SAID_MS);
-  } }, texts.copy);
   const code = part("div", { class: "code" }), [first, rest] = [0, 1].map(() => part("p", { role: "status" }));
   const room = part("dialog", { class: "room", "aria-label": texts.code, onclose: () => room.replaceChildren() });
   const fill = part("button", { type: "button", onclick: () => {
@@ -50,19 +45,16 @@ export function renderShareHead({ model, el }) {
   } }, texts.fill);
   el.replaceChildren(part("style", {}, STYLE), part("section", { class: "all", "aria-label": texts.title },
     part("div", { class: "line" }, part("h2", {}, texts.title), part("button", { type: "button", class: "close", "aria-label": texts.close, title: texts.close, onclick: close }, "✕")),
-    part("div", { class: "line" }, link, copy), code, part("div", { class: "line" }, first, fill), rest), room);
-  const show = () => {
+    part("div", { class: "line" }, link, copyButton(link, "copy", [texts.copy, texts.copied])), code, part("div", { class: "line" }, first, fill), rest), room);
+  follow(model, ["link", "picture", "said"], () => {
     link.value = model.link;
     code.innerHTML = model.picture;
     code.hidden = fill.hidden = !model.picture;
     [first.textContent, rest.textContent] = [model.said[0] ?? "", model.said.slice(1).join(" ")];
-  };
-  for (const name of ["link", "picture", "said"]) model.on(name, show);
+  });
   model.on("opened", opened);
   opened();
   window.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !event.defaultPrevented && el.getClientRects().length && !elsewhere(event)) close();
-  }, { signal: listening.signal });
-  model.on("remove", () => listening.abort());
-  show();
+  }, { signal: lifeOf({ model }) });
 }

@@ -1,6 +1,7 @@
 // Pointing at a symbol, in a picture, at a control or in a sentence, shows its sketch and meaning; pointing at a term
 // of the glossary shows its explanation. A symbol is recognised by its HTML: <i>K</i><sub>J</sub>.
 import { hideReadout, showReadout } from "../figures/readout.js";
+import { lifeOf } from "../life.js";
 import { sketchOf } from "./sketches.js";
 import { watchTerms } from "./terms.js";
 
@@ -28,7 +29,7 @@ function quiet(part, words) {
 
 /** @param {Rendering<Model>} rendering */
 export function renderSymbols({ model }) {
-  const listening = new AbortController(), { signal } = listening, owner = {};
+  const signal = lifeOf({ model }), owner = {};
   const over = (event) => {
     const part = event.composedPath()[0], name = part instanceof Element ? symbolOf(part) : undefined, words = name && model.texts.symbols[name];
     if (!name || !words) return;
@@ -43,5 +44,4 @@ export function renderSymbols({ model }) {
   document.addEventListener("pointerdown", (event) => symbolOf(/** @type {Element} */ (event.composedPath()[0])) === undefined && hide(), { signal });
   window.addEventListener("scroll", hide, { capture: true, passive: true, signal });
   watchTerms(model.texts.terms, signal);
-  model.on("remove", () => listening.abort());
 }

@@ -2,6 +2,7 @@
 // its silhouette, which can be clicked; the ring is the top of the page, which can be dragged.
 import { fill, local } from "../data.js";
 import { clamp } from "../figures/curves.js";
+import { lifeOf, onLook } from "../life.js";
 
 // a/R to the right of the gap in the axis; to its left, where ordinary tops are; I1/I3
 /** @type {Record<"NEAR" | "FAR" | "RATIO", [from: number, to: number]>} */
@@ -160,12 +161,7 @@ export function renderTopsMap({ model, el }) {
     move(a(clientX - left), ratio(clientY - top));
   };
   place.onpointerup = place.onpointercancel = () => (held = false);
-  const sizes = new ResizeObserver(draw);
-  sizes.observe(place);
+  new ResizeObserver(draw).observe(place);
   model.on("state", draw);
-  window.addEventListener("tippe:look", draw); // the font size may have changed
-  model.on("remove", () => {
-    sizes.disconnect();
-    window.removeEventListener("tippe:look", draw);
-  });
+  onLook(draw, lifeOf({ model })); // the font size may have changed
 }

@@ -1,5 +1,6 @@
 // The tour of the Lab's research, on request: one part of the page after the other, with words beside it.
 import { fill } from "../data.js";
+import { placeBeside } from "../figures/readout.js";
 import { find } from "./finding.js";
 
 // The parts, in the order of their words.
@@ -23,21 +24,6 @@ const isWhole = (element) => {
   return box && box.top >= 0 && box.bottom <= innerHeight && box.left >= 0 && box.right <= innerWidth;
 };
 
-// Where to put the words: beside a box if there is room, otherwise at the end of the window that is farther from it.
-/** @param {Pick<DOMRect, "left" | "right" | "top" | "bottom">} box @param {{ wide: number, high: number }} words @param {{ wide: number, high: number }} page */
-export function beside(box, { wide, high }, page) {
-  const inside = (value, most) => Math.min(Math.max(value, GAP), Math.max(most - GAP, GAP));
-  const rooms = [
-    [page.wide - box.right, wide, box.right + GAP, inside(box.top, page.high - high)],
-    [box.left, wide, box.left - GAP - wide, inside(box.top, page.high - high)],
-    [page.high - box.bottom, high, inside(box.left, page.wide - wide), box.bottom + GAP],
-    [box.top, high, inside(box.left, page.wide - wide), box.top - GAP - high],
-  ];
-  const farther = box.top > page.high - box.bottom ? 3 : 2;
-  const [, , left, top] = rooms.find(([room, needs]) => room > needs + 2 * GAP) ?? rooms[farther];
-  return { left: inside(left, page.wide - wide), top: inside(top, page.high - high) };
-}
-
 export class Tour {
   /** @param {Record<string, any>} texts @param {ShadowRoot} over a layer above the page @param {AbortSignal} signal */
   constructor(texts, over, signal) {
@@ -59,9 +45,7 @@ export class Tour {
     signal.addEventListener("abort", () => clearInterval(this.watching));
   }
 
-  get isOn() {
-    return !this.stop.hidden;
-  }
+  get isOn() { return !this.stop.hidden; }
 
   /** @param {Element | null} active */
   begin(active) {
@@ -101,7 +85,8 @@ export class Tour {
     ring.hidden = !box;
     if (!box) return Object.assign(stop.style, { left: `${(innerWidth - wide) / 2}px`, top: `${innerHeight - high - GAP}px` });
     Object.assign(ring.style, { left: `${box.left - 6}px`, top: `${box.top - 6}px`, width: `${box.width + 12}px`, height: `${box.height + 12}px` });
-    const { left, top } = beside(box, { wide, high }, { wide: innerWidth, high: innerHeight });
+    const middle = /** @type {[number, number]} */ ([(box.left + box.right) / 2, (box.top + box.bottom) / 2]);
+    const { left, top } = placeBeside(middle, { wide, high }, { wide: innerWidth, high: innerHeight }, [box]);
     Object.assign(stop.style, { left: `${left}px`, top: `${top}px` });
   }
 }
