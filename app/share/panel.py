@@ -178,13 +178,7 @@ def _says(text):
 
 
 def _row(says, *buttons):
-    return pn.Column(
-        says,
-        *buttons,
-        sizing_mode="stretch_width",
-        margin=0,
-        stylesheets=[ROW],
-    )
+    return pn.Column(says, *buttons, sizing_mode="stretch_width", margin=0, stylesheets=[ROW])
 
 
 def plain(lines):

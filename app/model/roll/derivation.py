@@ -13,16 +13,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from app.model.stretches import EDGE, Long, Window, Z, column, dot
-from tippe_core import (
-    f,
-    f1_squared,
-    f2_squared,
-    f3_squared,
-    friction_force,
-    normal_force,
-    omega2,
-    omega3,
-)
+from tippe_core import f, f1_squared, f2_squared, f3_squared, friction_force, normal_force, omega2, omega3
 from tippe_core.types import Array, Number, Scalars
 
 Reading: TypeAlias = Callable[[Window], Long]
