@@ -14,6 +14,7 @@ import param
 from app.model.build.dimensions import FAMILIES, INSIDES, MASS, Dimension, Value, changed, density_dimension, sentence
 from app.model.build.inside import filled, inside
 from app.model.scene import Scene
+from app.model.setup import TOYS
 from app.text import listed, say
 from tippe_core import (
     PRESETS,
@@ -173,7 +174,7 @@ class Builder(param.Parameterized):
 
     def choose(self, name: str) -> None:
         """Takes the preset with this name, with a new throw."""
-        self._take(next(preset for preset in PRESETS if preset.name == name))
+        self._take(TOYS[name])
 
     def choose_family(self, family: str) -> None:
         """Takes the first preset of a family, with a new throw."""
@@ -296,20 +297,13 @@ class Rocking:
         try:
             return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
         except TopError as error:
-            # the diameter was measured
-            if error.name == "R":
-                raise TopError(
-                    say("build.own.diameter"), self.D, "{range} ({unit})", range="2e-09 <= D <= 2e+09", unit="m"
-                ) from None
-            if error.name == "dR":
-                raise TopError(
-                    say("build.own.diameter_uncertainty"),
-                    self.dD,
-                    "{range} ({unit})",
-                    range="0 <= dD <= 2e+09",
-                    unit="m",
-                ) from None
-            raise
+            if error.name not in ("R", "dR"):
+                raise
+            word, value, limits = {
+                "R": ("diameter", self.D, "2e-09 <= D <= 2e+09"),
+                "dR": ("diameter_uncertainty", self.dD, "0 <= dD <= 2e+09"),
+            }[error.name]  # the diameter was measured
+            raise TopError(say(f"build.own.{word}"), value, "{range} ({unit})", range=limits, unit="m") from None
 
 
 def rocks_once(shape: Shape) -> float:
