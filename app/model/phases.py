@@ -94,10 +94,9 @@ def phases(run: Samples) -> tuple[Phase, ...]:
             pieces = outside(span, [phase[1:] for phase in found])
             found += [Phase(kind, *piece) for piece in pieces if kind != "rises" or _goes(run, piece) >= GOES]
     for piece in outside((first, last), [phase[1:] for phase in found]):
-        for start, end in pairwise(
-            [piece[0], *(cut for cut in sorted({*run.cuts}) if piece[0] < cut < piece[1]), piece[1]]
-        ):
-            found += _rest(run, (start, end))
+        edges = [piece[0], *(cut for cut in sorted({*run.cuts}) if piece[0] < cut < piece[1]), piece[1]]
+        for part in pairwise(edges):
+            found += _rest(run, part)
     return _joined(sorted(found, key=lambda phase: phase.start), run)
 
 

@@ -5,6 +5,7 @@ In SI, as in tippe_core.bodies; dimensions that are shown or set are in the unit
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -75,15 +76,10 @@ class Draft:
         """The Dimensions that can be set."""
         dimensions = FAMILIES[type(self.shape)][1] + INSIDES[inside(self.shape)]
         if isinstance(self.shape, Lathe) and isinstance(self.shape.density, tuple):
-            last = self.shape.points[0][1]
-            pieces = [density_dimension("density 0", "peg_density")]
-            for index, (_, height) in enumerate(self.shape.points[1:], 1):
-                if height > last:  # a step in the radius is not a piece
-                    pieces.append(
-                        density_dimension(f"density {index}", "piece_density", low=1e3 * last, high=1e3 * height)
-                    )
-                last = height
-            return (dimensions[0], *pieces, MASS)
+            heights = pairwise(height for _, height in self.shape.points)  # a step in the radius is not a piece
+            pieces = [density_dimension(f"density {index}", "piece_density", low=1e3 * low, high=1e3 * high)
+                      for index, (low, high) in enumerate(heights, 1) if high > low]  # fmt: skip
+            return (dimensions[0], density_dimension("density 0", "peg_density"), *pieces, MASS)
         return dimensions
 
 
