@@ -245,7 +245,7 @@ class _Told:
             code = "few"
         elif stood and spin < SPINS:
             code = "none"
-        elif self.a < 0 and change.stable == "above" and spin < needed:
+        elif self.a < 0 and change.stable == "above" and round(spin, 1) < min(needed, round(needed)):  # as it is said
             code = "needs"
         return say(f"lab.stages.falls.{code}", needed=needed, **numbers)
 
