@@ -8,7 +8,8 @@ import pytest
 
 from app.model.explorer import Explorer
 from app.model.families.__main__ import least
-from app.model.families.known_tops import PRESET_OF, known_of, known_tops
+from app.model.families.known_tops import known_of, known_tops
+from app.model.setup import TOYS
 from app.tabs.families.tops import Tops, sentence
 from tippe_core import PRESETS, lift_off_and_slip_tielines
 
@@ -64,7 +65,7 @@ def test_a_click_shows_a_top_large_and_changes_nothing_else(view):
 
 def test_a_known_top_that_the_page_comes_to_is_looked_at_and_else_what_was_clicked_stays(view):
     scene = Explorer().scene
-    top_s = Explorer(a=0.3, I1=PRESET_OF["Top S"].top.I1, I3=PRESET_OF["Top S"].top.I3).scene
+    top_s = Explorer(a=0.3, I1=TOYS["Top S"].top.I1, I3=TOYS["Top S"].top.I3).scene
     view.show(top_s)
     assert view.map.state["chosen"] == "Top S" and "Top S" in view.head.object
     view.map.picked = [1, "Loaded sphere"]
@@ -96,4 +97,4 @@ def test_fig_6_of_a_top_has_its_steady_precession_where_the_core_has_it(view):
     upright, three = 34.0, texts["3"]
     theta = 3 * (points[:, 0] - upright) / (three - upright)
     assert theta == pytest.approx(lift.theta_steady, abs=0.02)
-    assert PRESET_OF["Top S"].top == found.top
+    assert TOYS["Top S"].top == found.top

@@ -13,7 +13,7 @@ from app.model.maps.lines import disagreements
 from app.model.maps.maps import UNITS, Map
 from app.model.maps.rates import OfLaw, Power, by_law, rates
 from app.model.maps.solving import CURVE, Level, run
-from app.model.maps.steady import Bifurcation, at_place, bifurcation, fixed
+from app.model.maps.steady import Bifurcation, bifurcation, fixed
 from app.model.maps.throw import throw_of
 from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import of_laws, of_powers
@@ -151,7 +151,7 @@ def test_small_motions_go_round_as_those_of_a_run_do():
 def test_small_motions_grow_by_each_law_as_those_of_a_run_do():
     """Upright, at the spin of the bead; by Coulomb's law the top rolls, and no run grows."""
     asked = Map(body="Top S", law="viscous", across_range=(12.0, 16.0), values=(("mu", 0.5),))
-    found = {(each.law, each.branch): each for each in by_law(asked, at_place(asked, (14.0, 5.7)))}
+    found = {(each.law, each.branch): each for each in by_law(asked, asked.values_at(14.0, 5.7))}
     assert len(found) == 12 and abs(found["coulomb", "upright"].growth) < 1e-6
     for law in ("viscous", "smoothed", "contensou"):
         assert found[law, "inverted"].growth < 0, law
@@ -162,14 +162,14 @@ def test_small_motions_grow_by_each_law_as_those_of_a_run_do():
                       np.linspace(0, 8 / growth, 2000), rtol=1e-11)  # fmt: skip
         late = moved.t > 6 / growth
         left = 14.0 * moved.jellett[late].mean() / moved.jellett[0]  # pivoting takes some of the spin
-        told = {(each.law, each.branch): each for each in by_law(asked, at_place(asked, (left, 5.7)))}
+        told = {(each.law, each.branch): each for each in by_law(asked, asked.values_at(left, 5.7))}
         grown = np.polyfit(moved.t[late], np.log(moved.theta[late]), 1)[0] / cell.scales.time
         assert grown == pytest.approx(told[law, "upright"].growth, rel=0.03), law
 
 
 def test_inverted_spin_that_is_too_slow_falls_as_a_run_does():
     asked = Map(body="Top S", law="viscous", values=(("mu", 0.5),), across_range=(2.0, 16.0))
-    (told,) = (each for each in by_law(asked, at_place(asked, (6.0, 5.7)))
+    (told,) = (each for each in by_law(asked, asked.values_at(6.0, 5.7))
                if (each.law, each.branch) == ("viscous", "inverted"))  # fmt: skip
     cell = asked.at(6.0, 5.7)
     C_J = slide(cell.top, cell.state, cell.friction, [0.0]).jellett[0]
@@ -190,7 +190,7 @@ def test_leaning_dies_out_and_goes_round_as_a_run_does_that_was_pushed():
     pushed = State(1.95, 0.0, 1.02 * omega2, omega3, vx=0.0, vy=0.0)
     moved = slide(cell.top, pushed, cell.friction, np.linspace(0, 900, 6000), rtol=1e-11)
     spin = moved.jellett[-1] / steady.launch(cell)
-    (told,) = (each for each in by_law(asked, at_place(asked, (spin, 5.7)))
+    (told,) = (each for each in by_law(asked, asked.values_at(spin, 5.7))
                if (each.law, each.branch) == ("viscous", "tumbling"))  # fmt: skip
     away = np.abs(moved.theta - moved.theta[-1])
     peaks = np.flatnonzero((away[1:-1] > away[:-2]) & (away[1:-1] > away[2:])) + 1

@@ -10,7 +10,7 @@ from app.model.maps.kept import SHIPPED, recall
 from app.model.maps.maps import Map
 from app.model.maps.rates import POINTS, REACH, powers
 from app.model.maps.solving import run
-from app.model.maps.steady import _brought, at_place, bifurcation, fixed, launch, life, steady_lines
+from app.model.maps.steady import _brought, bifurcation, fixed, launch, life, steady_lines
 from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import of_life
 from app.tabs.maps.words import of_run
@@ -77,7 +77,7 @@ def test_what_stands_on_its_stem_at_the_end_does_not_come_off_it_there():
 def test_a_power_is_the_slope_of_single_runs():
     """By numpy's own regression of runs that were made one by one, and looked at closely."""
     place = (40.0, 5.7)
-    own, x = fixed(Map(), place), at_place(Map(), place)
+    own, x = fixed(Map(), place), Map().values_at(*place)
     found = {(power.law, power.quantity): power for power in powers(own, x)}
     by = np.geomspace(1 / REACH, REACH, POINTS)
     for quantity in ("spin", "mu"):

@@ -51,16 +51,5 @@ def outline(top: Top) -> Array:
         return ball
     disc = -top.a + np.array([-0.15, -0.15, 0.15, 0.15])
     wide = max(1.2, 1.5 * top.I3**0.5)
-    return np.vstack(
-        [
-            ball[:50],
-            [
-                [0.2, disc[0]],
-                [wide, disc[1]],
-                [wide, disc[2]],
-                [0.15, disc[3]],
-                [0.15, disc[3] + 0.6],
-                [0, disc[3] + 0.6],
-            ],
-        ]
-    )
+    return np.vstack([ball[:50], [[0.2, disc[0]], [wide, disc[1]], [wide, disc[2]], [0.15, disc[3]],
+                                  [0.15, disc[3] + 0.6], [0, disc[3] + 0.6]]])  # fmt: skip

@@ -27,7 +27,4 @@ def happened(motion: TableMotion) -> tuple[tuple[float, str], ...]:
 
 def first_times(motion: TableMotion) -> dict[str, float]:
     """{code: the time (s) at which it first happened}."""
-    found: dict[str, float] = {}
-    for t, code in happened(motion):
-        found.setdefault(code, t)
-    return found
+    return {code: t for t, code in reversed(happened(motion))}

@@ -2,11 +2,7 @@
 
 import numpy as np
 
-from tippe_core import (
-    Constants,
-    Top,
-    Trajectory,
-)
+from tippe_core import Constants, Top, Trajectory
 from tippe_core.types import Array
 
 NUTATIONS = 20

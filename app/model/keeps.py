@@ -17,6 +17,7 @@ ROUNDING, TURNED = 1e-6, 0.05  # relative to the largest value so far
 NEARLY = 0.25
 BACK = 0.01  # of its range: what comes back by less only grows, or only falls
 TREND = 0.2  # relative to the range of the values
+_least, _most = np.minimum.accumulate, np.maximum.accumulate
 
 
 def keeps(motion: TableMotion) -> Array:
@@ -88,11 +89,3 @@ def _told(values: Array, first: float, nearly: float = NEARLY, *, swings: bool =
     swing = found == KINDS.index("swings")
     start = np.where(swing, _least(values), all_values[0])
     return np.column_stack([found, start, np.where(swing, _most(values), values)])
-
-
-def _least(values: Array) -> Array:
-    return np.minimum.accumulate(values)
-
-
-def _most(values: Array) -> Array:
-    return np.maximum.accumulate(values)

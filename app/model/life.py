@@ -4,7 +4,7 @@ of the toy, until it rolls for good and a moment longer."""
 from dataclasses import replace
 from functools import lru_cache
 from threading import Lock
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,9 +24,6 @@ ROUNDING = 1e-9  # relative
 LONG, CATCHES = "long", "catches"  # why a motion is not computed to its end
 
 
-T = TypeVar("T", bound=Setup)
-
-
 class _TooLong(Exception):
     """A run takes too long, for example that of a rim that chatters."""
 
@@ -40,7 +37,7 @@ class Lived(NamedTuple):
     cut: str
 
 
-def within(start: T) -> T:
+def within(start: Setup) -> Setup:
     """A Setup, shortened if it makes too many turns to be shown."""
     try:
         start.times  # noqa: B018  (it is computed, or refused)

@@ -58,6 +58,5 @@ def energy_marks(top: Top, K_J: float, K_R: float, mu_s: float) -> Marks:
         nodes.append(max(E, nodes[-1]))  # rounding may put one limit below another
     if nodes[2] == nodes[0]:
         nodes[2] += UNLIMITED * (1 + abs(steady))
-    return Marks(
-        steady=steady, slip=E_slip, lift=E_lift, theta_steady=float(lift.theta_steady[0]), nodes=np.array(nodes)
-    )
+    return Marks(steady=steady, slip=E_slip, lift=E_lift, theta_steady=float(lift.theta_steady[0]),
+                 nodes=np.array(nodes))  # fmt: skip

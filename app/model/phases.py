@@ -94,10 +94,9 @@ def phases(run: Samples) -> tuple[Phase, ...]:
             pieces = outside(span, [phase[1:] for phase in found])
             found += [Phase(kind, *piece) for piece in pieces if kind != "rises" or _goes(run, piece) >= GOES]
     for piece in outside((first, last), [phase[1:] for phase in found]):
-        for start, end in pairwise(
-            [piece[0], *(cut for cut in sorted({*run.cuts}) if piece[0] < cut < piece[1]), piece[1]]
-        ):
-            found += _rest(run, (start, end))
+        edges = [piece[0], *(cut for cut in sorted({*run.cuts}) if piece[0] < cut < piece[1]), piece[1]]
+        for part in pairwise(edges):
+            found += _rest(run, part)
     return _joined(sorted(found, key=lambda phase: phase.start), run)
 
 
@@ -245,7 +244,7 @@ def _goes(run: Samples, span: Span) -> float:
 def _rest(run: Samples, piece: Span) -> list[Phase]:
     """The phases of a piece of a run that is none of the above."""
     start, end = piece
-    inside = (run.t >= start) & ((run.t < end) | (run.t == run.t[-1]) & (end == run.t[-1]))
+    inside = _inside(run, piece)
     t, tilt = run.t[inside], run.tilt[inside]
     if len(t) < 2:
         return [Phase("slides", start, end)]
@@ -256,21 +255,28 @@ def _rest(run: Samples, piece: Span) -> list[Phase]:
     edges = [0, *(np.flatnonzero(kinds[1:] != kinds[:-1]) + 1).tolist(), len(t)]
     found = []
     for i, j in pairwise(edges):
-        kind = str(kinds[i]) if kinds[i] != "swings" else _swings(run, t[i:j], tilt[i:j])
-        if kind == "sinks" and _goes(run, (float(t[i]), float(t[j - 1]))) > -GOES:
-            kind = _swings(run, t[i:j], tilt[i:j])
-        found.append(Phase(kind, start if i == 0 else float(t[i]), end if j == len(t) else float(t[j])))
+        kind = str(kinds[i])
+        span = start if i == 0 else float(t[i]), end if j == len(t) else float(t[j])
+        if kind == "swings" or (kind == "sinks" and _goes(run, span) > -GOES):
+            kind = _swings(run, span)
+        found.append(Phase(kind, *span))
     return found
 
 
-def _swings(run: Samples, t: Array, tilt: Array) -> str:
+def _inside(run: Samples, span: Span) -> Bools:
+    """Its samples; one at its end is of what comes next, unless the run ends there."""
+    last = run.t[-1]
+    return np.asarray((run.t >= span[0]) & ((run.t < span[1]) | ((run.t == last) & (span[1] == last))))
+
+
+def _swings(run: Samples, span: Span) -> str:
     """The kind of a span in which the tilt changes by more than NODS: it comes back twice, or goes one way."""
-    if comes_back(tilt) >= 2:
+    inside = _inside(run, span)
+    if comes_back(run.tilt[inside]) >= 2:
         return "swings"
-    nearer = _goes(run, (float(t[0]), float(t[-1])))
-    if abs(nearer) >= GOES and abs(tilt[-1] - tilt[0]) >= LEG:
+    nearer, (first, last) = _goes(run, span), np.interp(span, run.t, run.tilt)  # it may end between two samples
+    if abs(nearer) >= GOES and abs(last - first) >= LEG:
         return "rises" if nearer > 0 else "sinks"
-    inside = (run.t >= t[0]) & (run.t <= t[-1])
     return "rolls" if run.rolls[inside].all() else "slides"
 
 
@@ -308,8 +314,7 @@ def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
             first, last = min(i, j), max(i, j)
             joins = Phase(kept[j].kind, kept[first].start, kept[last].end)
             if joins.kind in ("rolls", "slides") or (joins.kind == "sinks" and _goes(run, joins[1:]) > -GOES):
-                inside = (run.t >= joins.start) & (run.t <= joins.end)
-                joins = joins._replace(kind=_swings(run, run.t[inside], run.tilt[inside]))
+                joins = joins._replace(kind=_swings(run, joins[1:]))
             kept = _alike([*kept[:first], joins, *kept[last + 1 :]], run.cuts)
     return tuple(kept)
 

@@ -123,11 +123,8 @@ class Pool:
         """Tells visitors who have waited long enough, and have nothing under way, each change of their place."""
         with self._changing:
             now, before = time.monotonic(), self._told
-            queue = [
-                each
-                for each, pieces in self._waiting.items()
-                if not self._working[each] and pieces[0] not in self._resuming
-            ]
+            queue = [each for each, pieces in self._waiting.items()
+                     if not self._working[each] and pieces[0] not in self._resuming]  # fmt: skip
             self._told = {each: place for place, each in enumerate(queue, 1)
                           if each in before or now - self._since[self._waiting[each][0]] >= SAY}  # fmt: skip
             news = [(self._places[each], self._told.get(each, 0)) for each in before | self._told

@@ -110,23 +110,11 @@ def plane(top: Top, K_R: float, mu_s: float, upper: Upper, limit: str, low: floa
     pole = poles[0]
     at_pole = np.flatnonzero(K_J == pole)
     return Plane(
-        K_J=K_J,
-        lift=lift,
-        slip=slip,
-        surface=surface,
-        theta=theta,
-        height=heights,
-        K_J_range=(low, high),
-        theta_range=(0.0, float(theta_end)),
-        surface_range=(0.0, float(surface_end)),
-        limit=limit,
-        pole=float(pole),
-        pole_height=float(heights[at_pole].max(initial=0.0)) if at_pole.size else 0.0,
-        hover_theta=hover_theta,
-        hover_K_J=even,
-        hover_E=hover_E,
-        hover_ratio=hover_ratio,
-    )
+        K_J=K_J, lift=lift, slip=slip, surface=surface, theta=theta, height=heights, K_J_range=(low, high),
+        theta_range=(0.0, float(theta_end)), surface_range=(0.0, float(surface_end)), limit=limit, pole=float(pole),
+        pole_height=float(heights[at_pole].max(initial=0.0)) if at_pole.size else 0.0, hover_theta=hover_theta,
+        hover_K_J=even, hover_E=hover_E, hover_ratio=hover_ratio,
+    )  # fmt: skip
 
 
 def least_energy(theta: Array, top: Top, K_J: Scalars, K_R: Scalars) -> Array:

@@ -152,11 +152,8 @@ class TableMotion:
     def cuts(self) -> Mapping[str, float]:
         """{code: the time (s)} of what divides it: "off", its stem leaves the table for good, after it was on it for a
         while; "rolls", it begins to roll for good."""
-        found, unit, stretches = (
-            dict[str, float](),
-            self.start.scales.time,
-            self.ending.stretches if self.ending else (),
-        )
+        found: dict[str, float] = {}
+        unit, stretches = self.start.scales.time, self.ending.stretches if self.ending else ()
         on = [each for each in stretches if each.on in STEM]
         if on and stretches[-1].on == "ball" and (on[-1].end - on[0].start) * unit > WHILE:
             found["off"] = on[-1].end * unit

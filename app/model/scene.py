@@ -219,17 +219,9 @@ def _check_sizes(top: Top, numbers: dict[str, float]) -> None:
 
 
 def _scene(
-    asked: dict[str, Any],
-    lost: float,
-    constants: Constants,
-    share: float,
-    marks: Marks,
-    state: State,
-    rolling: Rolling,
-    whole: Plane,
-    turning: tuple[float, float],
-    trajectory: Trajectory,
-) -> Scene:
+    asked: dict[str, Any], lost: float, constants: Constants, share: float, marks: Marks, state: State,
+    rolling: Rolling, whole: Plane, turning: tuple[float, float], trajectory: Trajectory,
+) -> Scene:  # fmt: skip
     """The Scene of a solution, with everything that is shown."""
     top, shape, mu_s = rolling.top, asked["shape"], asked["mu_s"]
     drawn = shape if fits(shape, top) else None
@@ -243,34 +235,15 @@ def _scene(
     turns = float(state.omega3 * shape.scales.angular_velocity / (2 * np.pi))
     inputs |= {"spin": turns, "tilt": float(np.degrees(state.theta)), "slip": 1.0}
     return Scene(
-        top=top,
-        scales=shape.scales,
-        mu_s=mu_s,
-        constants=constants,
-        lost=lost,
-        share=share,
-        marks=marks,
-        state=state,
-        rolling=rolling,
-        plane=whole,
-        turning=turning,
-        curve=np.column_stack([theta, height(theta, top, constants)]),
-        trajectory=trajectory,
-        force=force,
-        omega=omega,
-        momentum=momentum,
-        normal=F_z,
-        ratio=ratio,
+        top=top, scales=shape.scales, mu_s=mu_s, constants=constants, lost=lost, share=share, marks=marks,
+        state=state, rolling=rolling, plane=whole, turning=turning,
+        curve=np.column_stack([theta, height(theta, top, constants)]), trajectory=trajectory,
+        force=force, omega=omega, momentum=momentum, normal=F_z, ratio=ratio,
         regime=np.where(F_z < -AT_LIMIT, WOULD_LIFT, np.where(ratio > mu_s + AT_LIMIT, WOULD_SLIP, ROLLS)),
-        K_J=trajectory.jellett / top.I1,
-        K_R=trajectory.routh,
-        E=trajectory.energy,
-        upright_spin=float(omega3(0.0, top, constants)),
-        profile=outline(top) if drawn is None else body(drawn),
-        shape=drawn,
-        inputs=MappingProxyType(inputs),
-        notes=tuple(remarks(marks, drawn, turning[1], lost)),
-    )
+        K_J=trajectory.jellett / top.I1, K_R=trajectory.routh, E=trajectory.energy,
+        upright_spin=float(omega3(0.0, top, constants)), profile=outline(top) if drawn is None else body(drawn),
+        shape=drawn, inputs=MappingProxyType(inputs), notes=tuple(remarks(marks, drawn, turning[1], lost)),
+    )  # fmt: skip
 
 
 def remarks(marks: Marks, shape: Shape | None, theta_outer: float, lost: float) -> Iterator[str]:

@@ -18,14 +18,10 @@ from tippe_core.paper.equations import rolling_velocity
 PAPERS = TruncatedSphere.paper()
 TABLES = (*EACH, "three")
 NUMBERS = tuple(dict.fromkeys(name for names in OF_LAW.values() for name in names))
-GIVEN = MappingProxyType(
-    {
-        "state": ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"),
-        "hand": ("spin", "tilt", "slip"),
-        "E": ("K_J", "K_R", "E"),
-        "share": ("K_J", "K_R", "energy"),
-    }
-)
+GIVEN = MappingProxyType({
+    "state": ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"), "hand": ("spin", "tilt", "slip"),
+    "E": ("K_J", "K_R", "E"), "share": ("K_J", "K_R", "energy"),
+})  # fmt: skip
 """{way in which a motion is given: its inputs}. K_J and K_R: Jellett's and Routh's constant, in (g/R)^1/2 and
 (MR^2)^1/2 (g/R)^1/2; energy: 0 the steady precession, 1 the limit of friction, 2 the limit F_z = 0; E: the energy
 itself, in MgR; theta to psi: the motion at t = 0, in rad and (g/R)^1/2; spin (rev/s), tilt (degrees) and slip: of a

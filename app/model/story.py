@@ -62,9 +62,8 @@ class Story:
 def story(motion: TableMotion) -> Story:
     """The Story of a motion, in the page's language."""
     words, part = listed("lab.events"), _part(motion)
-    events = tuple(
-        Event(t, code, *(word.format(part=part) for word in words[code])) for t, code in happened(motion) if t > 0.0
-    )
+    events = tuple(Event(t, code, *(word.format(part=part) for word in words[code]))
+                   for t, code in happened(motion) if t > 0.0)  # fmt: skip
     return Story(events, _Told(motion).stages(), "" if motion.table == "ordinary" else _caption(motion))
 
 
@@ -237,18 +236,18 @@ class _Told:
 
     def _why_it_falls(self, i: int, phase: Phase, numbers: dict[str, Number]) -> str:
         """Too little spin is the reason where it stood with more, or where it needs more to stand."""
-        if self._pushes(phase):
-            return say("lab.stages.falls.why", **numbers)
         stood = self.phases[i - 1] if i and self.kinds[i - 1] in STANDS else None
-        if stood and numbers["spin"] < (1 - SAME) * abs(self._at(stood.start)[5]) and numbers["spin"] >= SPINS:
-            return say("lab.stages.falls.few", **numbers)
-        if stood and numbers["spin"] < SPINS:
-            return say("lab.stages.falls.none", **numbers)
-        change = thresholds(self.motion.start.top).upright
+        change, spin, code = thresholds(self.motion.start.top).upright, numbers["spin"], "why"
         needed = float(change.spin) * self.turns
-        if self.a < 0 and change.stable == "above" and numbers["spin"] < needed:
-            return say("lab.stages.falls.needs", needed=needed, **numbers)
-        return say("lab.stages.falls.why", **numbers)
+        if self._pushes(phase):
+            pass  # and so it is said
+        elif stood and SPINS <= spin < (1 - SAME) * abs(self._at(stood.start)[5]):
+            code = "few"
+        elif stood and spin < SPINS:
+            code = "none"
+        elif self.a < 0 and change.stable == "above" and round(spin, 1) < min(needed, round(needed)):  # as it is said
+            code = "needs"
+        return say(f"lab.stages.falls.{code}", needed=needed, **numbers)
 
     def _of_table(self, i: int, numbers: dict[str, Number]) -> list[str]:
         """What is said once, of the whole run on a table."""
@@ -278,12 +277,10 @@ class _Told:
             return [say(f"lab.stopped.{kind}", **numbers | {"time": motion.ended_at})]
         if self._repeats(phase):
             return [say("lab.next.forever")] if not self.quiet else [say(f"lab.{self.table}.forever")]
-        said = (
-            [say(f"lab.next.{motion.cut}", **numbers)] if motion.cut and motion.whole and phase.kind != "lies" else []
-        )
-        if phase.kind in STANDS and numbers["last"] >= SPINS:
-            return [say("lab.next.spins", **numbers), *said]
-        return [*([say("lab.next.tilt", **numbers)] if phase.kind not in ("lies", "nods", "leans") else []), *said]
+        spins = phase.kind in STANDS and numbers["last"] >= SPINS
+        goes_on = "spins" if spins else "" if phase.kind in ("lies", "nods", "leans") else "tilt"
+        cut = motion.cut if motion.whole and phase.kind != "lies" else ""
+        return [say(f"lab.next.{code}", **numbers) for code in (goes_on, cut) if code]
 
     def _next(self, then: Phase) -> str:
         cuts = self.motion.cuts

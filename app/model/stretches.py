@@ -13,14 +13,7 @@ from numpy.typing import NDArray
 from scipy.fft import dct
 
 from app.model.scene import Scene
-from tippe_core import (
-    Constants,
-    Gliding,
-    Rolling,
-    State,
-    Top,
-    Trajectory,
-)
+from tippe_core import Constants, Gliding, Rolling, State, Top, Trajectory
 from tippe_core.types import Array, Complex, Number
 
 LONG = np.longdouble

@@ -28,18 +28,16 @@ UNITS = {
     "E": ("energy from the motion", "MgR", "energy", "J"),
     "regime": (", ".join(f"{code} {REGIMES[name]}" for code, name in enumerate(NAMES[:SLIPS])), "", None, ""),
 }
+LIMITS = {"lift": "F_z >= 0 alone", "slip": "F_h <= mu_s F_z as well"}
+OF_LIMIT = {
+    "E": "the largest E in MgR (inf: nothing limits it, nan: no motion)",
+    "theta_inner": "inner turning point in rad",
+    "theta_outer": "outer turning point in rad",
+    "theta_verge": "where the limit is reached, in rad",
+}
 TIELINES = {
     "tieline_K_J": "the tielines of Fig. 6: K_J in (g/R)^1/2",
-    **{
-        f"{limit}_{name}": f"{says} under {what}"
-        for limit, what in (("lift", "F_z >= 0 alone"), ("slip", "F_h <= mu_s F_z as well"))
-        for name, says in {
-            "E": "the largest E in MgR (inf: nothing limits it, nan: no motion)",
-            "theta_inner": "inner turning point in rad",
-            "theta_outer": "outer turning point in rad",
-            "theta_verge": "where the limit is reached, in rad",
-        }.items()
-    },
+    **{f"{limit}_{name}": f"{says} under {what}" for limit, what in LIMITS.items() for name, says in OF_LIMIT.items()},
     "theta_steady": "the steady precession in rad",
 }
 
@@ -49,39 +47,25 @@ def parameters(scene: Scene):
     top, constants, scales = scene.top, scene.constants, scene.scales
     inner, outer = scene.turning
     return {
-        "a": (top.a, "R"),
-        "I1": (top.I1, "MR^2"),
-        "I3": (top.I3, "MR^2"),
-        "K_J": (constants.K_J, "(g/R)^1/2"),
-        "K_R": (constants.K_R, "(MR^2)^1/2 (g/R)^1/2"),
-        "E": (constants.E, "MgR"),
-        "mu_s": (float(scene.mu_s), ""),
-        "theta_inner": (inner, "rad"),
-        "theta_outer": (outer, "rad"),
-        "R": (scales.R, "m"),
-        "M": (scales.M, "kg"),
-        "g": (scales.g, "m/s^2"),
-    }
+        "a": (top.a, "R"), "I1": (top.I1, "MR^2"), "I3": (top.I3, "MR^2"), "K_J": (constants.K_J, "(g/R)^1/2"),
+        "K_R": (constants.K_R, "(MR^2)^1/2 (g/R)^1/2"), "E": (constants.E, "MgR"), "mu_s": (float(scene.mu_s), ""),
+        "theta_inner": (inner, "rad"), "theta_outer": (outer, "rad"),
+        "R": (scales.R, "m"), "M": (scales.M, "kg"), "g": (scales.g, "m/s^2"),
+    }  # fmt: skip
 
 
 def motion_table(scene):
     """{name: (n,) or (n, k) array} of the motion, in the units of UNITS."""
     motion = scene.trajectory
-    names = ("t", "theta", "phi", "psi", "quaternion", "contact", "trace", "com")
-    table = {name: getattr(motion, name) for name in names}
-    return table | {
-        "omega": motion.omega, "force": motion.force, "ratio": scene.ratio,
-        "K_J": scene.K_J, "K_R": scene.K_R, "E": scene.E, "regime": scene.regime}  # fmt: skip
+    own = ("ratio", "K_J", "K_R", "E", "regime")  # of the Scene
+    return {name: getattr(scene if name in own else motion, name) for name in UNITS}
 
 
 def tieline_table(scene):
     """{name: (n,) array} of the tielines, in the units of TIELINES."""
     plane = scene.plane
-    table = {"tieline_K_J": plane.K_J}
-    for limit in ("lift", "slip"):
-        for name in ("E", "theta_inner", "theta_outer", "theta_verge"):
-            table[f"{limit}_{name}"] = getattr(getattr(plane, limit), name)
-    return table | {"theta_steady": plane.lift.theta_steady}
+    of_limits = {f"{limit}_{name}": getattr(getattr(plane, limit), name) for limit in LIMITS for name in OF_LIMIT}
+    return {"tieline_K_J": plane.K_J} | of_limits | {"theta_steady": plane.lift.theta_steady}
 
 
 def header(scene, link=""):

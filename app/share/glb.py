@@ -33,13 +33,8 @@ def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     line = [{"name": "trace on the ball", "mesh": file.line("the trace", OVER * R * marks, 1)}] if len(marks) else []
     middle, half = _around(track[:, :2], 3 * R)
     square = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half + middle
-    table = file.mesh(
-        "table",
-        np.column_stack([square, np.zeros(4)]),
-        np.tile([0.0, 0.0, 1.0], (4, 1)),
-        np.full((4, 3), 0.8),
-        np.array([0, 1, 2, 0, 2, 3]),
-    )
+    table = file.mesh("table", np.column_stack([square, np.zeros(4)]), np.tile([0.0, 0.0, 1.0], (4, 1)),
+                      np.full((4, 3), 0.8), np.array([0, 1, 2, 0, 2, 3]))  # fmt: skip
     x, y, z, w = motion.quaternion.T
     axis = np.column_stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
     centre = (motion.com + motion.top.a * axis) * R
@@ -47,18 +42,11 @@ def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     channels = [("translation", file.accessor(centre)), ("rotation", file.accessor(_unbroken(motion.quaternion)))]
     # physics has z up, glTF has y up
     upright = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
+    written = {key: f"{value if isinstance(value, str) else repr(value)} {unit}".rstrip()
+               for key, (value, unit) in said.items()}  # fmt: skip
+    extras = {"slower than the real top by": slower, "parameters": written}
     document = {
-        "asset": {
-            "version": "2.0",
-            "generator": "Tippe top explorer",
-            "extras": {
-                "slower than the real top by": slower,
-                "parameters": {
-                    key: f"{value if isinstance(value, str) else repr(value)} {unit}".rstrip()
-                    for key, (value, unit) in said.items()
-                },
-            },
-        },
+        "asset": {"version": "2.0", "generator": "Tippe top explorer", "extras": extras},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [
@@ -94,12 +82,8 @@ class _Gltf:
         self._binary += values.tobytes()
         self._views.append(view | ({"target": target} if target else {}))
         columns = values.reshape(len(values), -1)
-        accessor = {
-            "bufferView": len(self._views) - 1,
-            "componentType": UNSIGNED if integers else FLOAT,
-            "count": len(columns),
-            "type": GLTF_TYPES[columns.shape[1]],
-        }
+        accessor = {"bufferView": len(self._views) - 1, "componentType": UNSIGNED if integers else FLOAT,
+                    "count": len(columns), "type": GLTF_TYPES[columns.shape[1]]}  # fmt: skip
         if bounds:
             accessor |= {"min": columns.min(axis=0).tolist(), "max": columns.max(axis=0).tolist()}
         self._accessors.append(accessor)
@@ -125,16 +109,10 @@ class _Gltf:
         return len(self._meshes) - 1
 
     def packed(self, document):
-        text = json.dumps(
-            document
-            | {
-                "meshes": self._meshes,
-                "materials": self._materials,
-                "accessors": self._accessors,
-                "bufferViews": self._views,
-                "buffers": [{"byteLength": len(self._binary)}],
-            }
-        ).encode()
+        text = json.dumps(document | {
+            "meshes": self._meshes, "materials": self._materials, "accessors": self._accessors,
+            "bufferViews": self._views, "buffers": [{"byteLength": len(self._binary)}],
+        }).encode()  # fmt: skip
         text += b" " * (-len(text) % 4)
         chunks = struct.pack("<I4s", len(text), b"JSON") + text
         chunks += struct.pack("<I4s", len(self._binary), b"BIN\0") + self._binary

@@ -16,28 +16,10 @@ from app.widgets.download import Download
 from app.widgets.forms import Choice, Fold
 from tippe_core import BareSphere
 
-RUN = {
-    "png": lambda run, link, slower: saved_runs.run_print(run, "png"),
-    "svg": lambda run, link, slower: saved_runs.run_print(run, "svg"),
-    "csv": lambda run, link, slower: saved_runs.run_csv(run, link),
-    "npz": lambda run, link, slower: saved_runs.run_npz(run, link),
-    "glb": lambda run, link, slower: saved_runs.run_glb(run, slower),
-    "py": lambda run, link, slower: _program(saved_runs.run_python(run), link),
-}
-ROLLING = {
-    "png": lambda scene, link, slower: draw(scene, "motion", "png"),
-    "svg": lambda scene, link, slower: draw(scene, "motion", "svg"),
-    "csv": lambda scene, link, slower: export.motion_csv(scene, link),
-    "npz": lambda scene, link, slower: export.arrays_npz(scene, link),
-    "glb": lambda scene, link, slower: glb.animation_glb(scene, slower),
-    "py": lambda scene, link, slower: _program(programs.PYTHON["The motion"](scene), link),
-}
-"""{kind of file: a function that gives its bytes, of what is shown, its link, and how many times slower it is
-played}."""
 ROWS = {"pictures": ("png", "svg"), "data": ("csv", "npz"), "solid": ("glb",), "code": ("py",)}
 HEIGHT = 700  # px, of a frame 900 px wide
 SLOW = 16  # times slower than the real top, unless a speed was chosen
-NAMES = {kind: kind.upper() for kind in (*RUN, "stl", "html")} | {"npz": "NumPy", "py": ".py"}
+NAMES = {kind: kind.upper() for kind in ("png", "svg", "csv", "glb", "stl", "html")} | {"npz": "NumPy", "py": ".py"}
 ROW = """
 :host { display: flex; flex-flow: row wrap; gap: 8px; align-items: center; padding: 6px 0; min-height: 47px;
   border-top: 1px solid var(--rule); box-sizing: border-box }
@@ -46,12 +28,18 @@ SAYS = f"b {{ font-size: {px(14)} }} small {{ display: block; font-size: {px(12)
 
 
 def made(kind, what, link, slower):
-    """The bytes of a file of a Shown or of a Scene."""
-    return (RUN if isinstance(what, Shown) else ROLLING)[kind](what, link, slower)
-
-
-def _program(text, link):
-    return f"# {link}\n{text}".encode()
+    """The bytes of a file of a Shown or of a Scene; slower: how many times slower than in reality it is played."""
+    run = isinstance(what, Shown)
+    match kind:
+        case "png" | "svg":
+            return saved_runs.run_print(what, kind) if run else draw(what, "motion", kind)
+        case "csv":
+            return (saved_runs.run_csv if run else export.motion_csv)(what, link)
+        case "npz":
+            return (saved_runs.run_npz if run else export.arrays_npz)(what, link)
+        case "glb":
+            return (saved_runs.run_glb if run else glb.animation_glb)(what, slower)
+    return f"# {link}\n{(saved_runs.run_python if run else programs.python_of_motion)(what)}".encode()
 
 
 def embedded(link):
@@ -177,29 +165,13 @@ def _says(text):
 
 
 def _row(says, *buttons):
-    return pn.Column(
-        says,
-        *buttons,
-        sizing_mode="stretch_width",
-        margin=0,
-        stylesheets=[ROW],
-    )
+    return pn.Column(says, *buttons, sizing_mode="stretch_width", margin=0, stylesheets=[ROW])
 
 
 def plain(lines):
     """The lines without mathtext."""
-    marks = {
-        "$": "",
-        r"\mu": "μ",
-        r"\theta": "θ",
-        r"\gamma": "γ",
-        r"\epsilon": "ε",
-        "^2": "²",
-        "^{1/2}": "½",
-        "{": "",
-        "}": "",
-        "_": "",
-    }
+    marks = {"$": "", r"\mu": "μ", r"\theta": "θ", r"\gamma": "γ", r"\epsilon": "ε", "^2": "²", "^{1/2}": "½",
+             "{": "", "}": "", "_": ""}  # fmt: skip
     for line in lines:
         for mark, sign in marks.items():
             line = line.replace(mark, sign)

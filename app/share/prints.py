@@ -38,11 +38,14 @@ def draw(scene, name, kind):
     import matplotlib
 
     with matplotlib.rc_context(FONT):
-        figure = DRAWN[name](scene)
-        file = io.BytesIO()
-        # with a date, two files of the same figure would differ
-        metadata = {"Title": say("main.title")} | ({"Date": None} if kind == "svg" else {})
-        figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
+        return _saved(DRAWN[name](scene), kind)
+
+
+def _saved(figure, kind):
+    file = io.BytesIO()
+    # with a date, two files of the same figure would differ
+    metadata = {"Title": say("main.title")} | ({"Date": None} if kind == "svg" else {})
+    figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
     return file.getvalue()
 
 
@@ -53,7 +56,7 @@ def curves(seconds, rows, words, trace, kind):
     from matplotlib.figure import Figure
 
     with matplotlib.rc_context(FONT):
-        figure, file = Figure(figsize=(WIDTH, 5.0), layout="constrained"), io.BytesIO()
+        figure = Figure(figsize=(WIDTH, 5.0), layout="constrained")
         figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88))
         left, right = figure.subfigures(1, 2, width_ratios=(2, 1))
         right.suptitle(say("lab_view.view.answers.trace.question"), fontsize=8)
@@ -67,9 +70,7 @@ def curves(seconds, rows, words, trace, kind):
         axes.set_xlabel("$t$ (s)")
         for line, text in enumerate(words):
             figure.text(0.5, 0.084 - 0.04 * line, text, ha="center", va="center", fontsize=7.5, color=INK)
-        metadata = {"Title": say("main.title")} | ({"Date": None} if kind == "svg" else {})
-        figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
-    return file.getvalue()
+        return _saved(figure, kind)
 
 
 def _caps(both, trace):

@@ -2,13 +2,15 @@
 
 import numpy as np
 
+HEAD = """\
+import matplotlib.pyplot as plt
+import numpy as np
+from tippe_core import """
+
 
 def python_of_plane(scene):
     """Ten lines of Python whose `lift` and `slip` are Fig. 6's tielines."""
-    return f"""\
-import matplotlib.pyplot as plt
-import numpy as np
-from tippe_core import Top, lift_off_and_slip_tielines
+    return f"""{HEAD}Top, lift_off_and_slip_tielines
 
 top = {scene.top!r}
 K_J = {_rows(scene.plane)}
@@ -24,10 +26,7 @@ def python_of_surface(scene):
     plane, K_R = scene.plane, scene.constants.K_R
     which = ["lift-off", "slip"].index(plane.limit)
     share = f"(1 - np.cos(np.linspace(0, np.pi, {plane.theta.shape[1]}))) / 2"
-    return f"""\
-import matplotlib.pyplot as plt
-import numpy as np
-from tippe_core import Constants, Top, f1_squared, lift_off_and_slip_tielines
+    return f"""{HEAD}Constants, Top, f1_squared, lift_off_and_slip_tielines
 from tippe_core.paper.curve import rounded_f
 
 tie = lift_off_and_slip_tielines(top := {scene.top!r}, {_rows(plane)}, K_R={K_R!r}, mu_s={float(scene.mu_s)!r})[{which}]
@@ -41,19 +40,21 @@ plt.figure().add_subplot(projection="3d").plot_surface(theta, K_J + 0 * theta, h
 
 def python_of_motion(scene):
     """Ten lines of Python whose `motion` is the trajectory, and `ratio` its F_h/F_z."""
-    t = scene.trajectory.t
-    return f"""\
-import matplotlib.pyplot as plt
-import numpy as np
-from tippe_core import Constants, State, Top, roll
+    return f"""{HEAD}Constants, State, Top, roll
 
-t = {float(t[1])!r} * np.arange({len(t)})
+t = {_frames(scene)}
 motion = roll({scene.top!r}, {_given(scene)})
 F_x, F_y, F_z = motion.force.T
 ratio = np.hypot(F_x, F_y) / np.abs(F_z)
 plt.plot(t, motion.theta, t, F_z, t, ratio)
 plt.savefig("motion.png")
 """
+
+
+def _frames(scene):
+    """The times of its frames as an expression."""
+    t = scene.trajectory.t
+    return f"{float(t[1])!r} * np.arange({len(t)})"
 
 
 def _given(scene):
@@ -76,13 +77,8 @@ def python_of_portrait(name):
 
     def python(scene):
         t = scene.nutation.t
-        times = f"np.linspace(0, {float(t[-1])!r}, {len(t)})"
-        if name == "track":
-            t = scene.trajectory.t
-            times = f"{float(t[1])!r} * np.arange({len(t)})"
-        return f"""import matplotlib.pyplot as plt
-import numpy as np
-from tippe_core import Constants, State, Top, roll
+        times = _frames(scene) if name == "track" else f"np.linspace(0, {float(t[-1])!r}, {len(t)})"
+        return f"""{HEAD}Constants, State, Top, roll
 
 t = {times}
 motion = roll({scene.top!r}, {_given(scene)})
@@ -99,9 +95,7 @@ def python_of_potential(scene):
     is 0."""
     theta, _ = scene.potential
     K_J, K_R, E = scene.constants.K_J, scene.constants.K_R, scene.constants.E
-    return f"""import matplotlib.pyplot as plt
-import numpy as np
-from tippe_core import Constants, Top, f
+    return f"""{HEAD}Constants, Top, f
 
 top = {scene.top!r}
 x = np.linspace({float(theta[0])!r}, {float(theta[-1])!r}, {len(theta)})

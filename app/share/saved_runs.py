@@ -13,19 +13,16 @@ from app.model.phases import carried
 from app.model.pushes import push_words
 from app.model.regimes import OF_CORE
 from app.model.setup import Setup
-from app.share import export, glb, prints
+from app.share import export, glb, prints, programs
 from app.text import say
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, Trajectory
 
+SLIP = ("velocity of the top's material at the contact, x y", "(gR)^1/2", "velocity", "m/s")
 UNITS = {
-    "t": ("time", "s", "time"), "theta": ("angle of axis 3 with the vertical", "rad", None),
-    "phi": ("azimuth of axis 1'", "rad", None), "psi": ("turn about axis 3", "rad", None),
-    "contact": ("point of contact on the table, x y", "m", "R"), "com": ("centre of mass G, x y z", "m", "R"),
-    "trace": ("point of contact in the body's axes, from the centre O of the ball, x y z", "m", "R"),
-    "quaternion": ("body to space, x y z w", "", None),
-    "omega": ("angular velocity about 1', 2', 3", "rad/s", "angular_velocity"),
-    "slip": ("velocity of the top's material at the contact, x y", "m/s", "velocity"),
-    "force": ("of the table on the top, along x = 1', y = z cross 1', z", "N", "force"),
+    name: (what, si or unit, scale)
+    for name in ("t", "theta", "phi", "psi", "contact", "com", "trace", "quaternion", "omega", "slip", "force")
+    for what, unit, scale, si in [{**export.UNITS, "slip": SLIP}[name]]
+} | {
     "jellett": ("C_J, in MR^2 (g/R)^1/2", "", None), "routh": ("K_R, in (MR^2)^1/2 (g/R)^1/2", "", None),
     "energy": ("energy", "J", "energy"), "heat": ("heat since the start", "J", "energy"),
 }  # fmt: skip
@@ -183,10 +180,7 @@ def run_python(shown):
     }[shown.table]
     law = f"{type(setup.friction).__name__}, " * (shown.table == ORDINARY)
     uses = {ROUGH: "grip, roll", ICE: "glide" if begins.z is None else "Viscous, slide", ORDINARY: "slide"}[shown.table]
-    return f"""\
-import matplotlib.pyplot as plt
-import numpy as np
-from tippe_core import {law}State, Top, {uses}
+    return f"""{programs.HEAD}{law}State, Top, {uses}
 
 top = {setup.top!r}
 state = State({state}){"  # just after its last push" * bool(pushed)}

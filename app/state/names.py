@@ -58,32 +58,29 @@ def _words(*words):
 
 _SWITCH = OneOf(yes=True, no=False)
 
+
+def _numbers(**names):
+    """{key: parameter} of numbers of the start."""
+    return [Name(key, "Explorer", parameter, Number) for key, parameter in names.items()]
+
+
+def _switches(owner, **names):
+    """{key: parameter} of what is on or off, and no step of undo."""
+    return [Name(key, owner, parameter, _SWITCH, undoable=False) for key, parameter in names.items()]
+
+
 ROWS = (
     Name("body", "Explorer", "shape", Body),
-    Name("a", "Explorer", "a", Number),
-    Name("I1", "Explorer", "I1", Number),
-    Name("I3", "Explorer", "I3", Number),
+    *_numbers(a="a", I1="I1", I3="I3"),
     Name("mu", "Explorer", "mu_s", Same),
     Name("by", "Explorer", "given", _words("share", "E", "state", "hand")),
-    Name("KJ", "Explorer", "K_J", Number),
-    Name("KR", "Explorer", "K_R", Number),
-    Name("e", "Explorer", "energy", Number),
-    Name("E", "Explorer", "E", Number),
-    Name("th", "Explorer", "theta", Number),
-    Name("thd", "Explorer", "theta_dot", Number),
-    Name("w2", "Explorer", "omega2", Number),
-    Name("w3", "Explorer", "omega3", Number),
-    Name("phi", "Explorer", "phi", Number),
-    Name("psi", "Explorer", "psi", Number),
-    Name("spin", "Explorer", "spin", Number),
-    Name("tilt", "Explorer", "tilt", Number),
-    Name("slip", "Explorer", "slip", Number),
+    *_numbers(KJ="K_J", KR="K_R", e="energy", E="E"),
+    *_numbers(th="theta", thd="theta_dot", w2="omega2", w3="omega3", phi="phi", psi="psi"),
+    *_numbers(spin="spin", tilt="tilt", slip="slip"),
     Name("table", "Explorer", "table", _words(*TABLES), undoable=False),
-    Name("mu_k", "Explorer", "mu", Number),
+    *_numbers(mu_k="mu"),
     Name("law", "Explorer", "law", _words(*LAWS)),
-    Name("gamma", "Explorer", "gamma", Number),
-    Name("eps", "Explorer", "eps", Number),
-    Name("patch", "Explorer", "patch", Number),
+    *_numbers(gamma="gamma", eps="eps", patch="patch"),
     Name("land", "Explorer", "landing", _words("stop", "plastic")),
     Name("stem", "Explorer", "stem", _SWITCH),
     Name("push", "Explorer", "pushes", Pushes),
@@ -93,21 +90,14 @@ ROWS = (
     Name("t", "Clock", "at", Number, undoable=False),
     Name("slow", "Playing", "speed", OneOf(**SPEEDS), undoable=False),
     Name("view", "Playing", "camera", Numbers(3), undoable=False),
-    Name("track", "Playing", "show_track", _SWITCH, undoable=False),
-    Name("trace", "Playing", "show_trace", _SWITCH, undoable=False),
-    Name("G", "Playing", "show_com_path", _SWITCH, undoable=False),
-    Name("F", "Playing", "show_force", _SWITCH, undoable=False),
-    Name("cone", "Playing", "show_cone", _SWITCH, undoable=False),
-    Name("w", "Playing", "show_omega", _SWITCH, undoable=False),
-    Name("L", "Playing", "show_momentum", _SWITCH, undoable=False),
-    Name("follow", "Playing", "follow", _SWITCH, undoable=False),
+    *_switches("Playing", track="show_track", trace="show_trace", G="show_com_path", F="show_force",
+               cone="show_cone", w="show_omega", L="show_momentum", follow="follow"),
     # the page
     Name(TAB, "Rooms", "room", _words(*ROOMS), undoable=False, where=True),
     Name(LEVEL, "Rooms", "level", _words(*LEVELS), undoable=False, where=True),
     Name("panel", "Research", "panel", _words(*PANELS), undoable=False, where=True),
     Name("face", "Controls", "face", _words("constants", "state"), undoable=False),
-    Name("dark", "Look", "dark", _SWITCH, undoable=False),
-    Name("large", "Look", "large", _SWITCH, undoable=False),
+    *_switches("Look", dark="dark", large="large"),
     Name(LANGUAGE, "PageLanguage", "lang", _words(*LANGUAGES), undoable=False),
     # the maps
     Name("map", "MapChoice", "asked", MapText),
@@ -119,7 +109,7 @@ ROWS = (
     Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False, where=True),
     Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False, where=True),
     Name(SECRET, "Learn", "room", Key, undoable=False),
-)
+)  # fmt: skip
 NAMES = {row.key: row for row in ROWS}
 
 

@@ -5,6 +5,7 @@ In SI, as in tippe_core.bodies; dimensions that are shown or set are in the unit
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -14,6 +15,7 @@ import param
 from app.model.build.dimensions import FAMILIES, INSIDES, MASS, Dimension, Value, changed, density_dimension, sentence
 from app.model.build.inside import filled, inside
 from app.model.scene import Scene
+from app.model.setup import TOYS
 from app.text import listed, say
 from tippe_core import (
     PRESETS,
@@ -74,15 +76,10 @@ class Draft:
         """The Dimensions that can be set."""
         dimensions = FAMILIES[type(self.shape)][1] + INSIDES[inside(self.shape)]
         if isinstance(self.shape, Lathe) and isinstance(self.shape.density, tuple):
-            last = self.shape.points[0][1]
-            pieces = [density_dimension("density 0", "peg_density")]
-            for index, (_, height) in enumerate(self.shape.points[1:], 1):
-                if height > last:  # a step in the radius is not a piece
-                    pieces.append(
-                        density_dimension(f"density {index}", "piece_density", low=1e3 * last, high=1e3 * height)
-                    )
-                last = height
-            return (dimensions[0], *pieces, MASS)
+            heights = pairwise(height for _, height in self.shape.points)  # a step in the radius is not a piece
+            pieces = [density_dimension(f"density {index}", "piece_density", low=1e3 * low, high=1e3 * high)
+                      for index, (low, high) in enumerate(heights, 1) if high > low]  # fmt: skip
+            return (dimensions[0], density_dimension("density 0", "peg_density"), *pieces, MASS)
         return dimensions
 
 
@@ -173,7 +170,7 @@ class Builder(param.Parameterized):
 
     def choose(self, name: str) -> None:
         """Takes the preset with this name, with a new throw."""
-        self._take(next(preset for preset in PRESETS if preset.name == name))
+        self._take(TOYS[name])
 
     def choose_family(self, family: str) -> None:
         """Takes the first preset of a family, with a new throw."""
@@ -296,20 +293,13 @@ class Rocking:
         try:
             return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
         except TopError as error:
-            # the diameter was measured
-            if error.name == "R":
-                raise TopError(
-                    say("build.own.diameter"), self.D, "{range} ({unit})", range="2e-09 <= D <= 2e+09", unit="m"
-                ) from None
-            if error.name == "dR":
-                raise TopError(
-                    say("build.own.diameter_uncertainty"),
-                    self.dD,
-                    "{range} ({unit})",
-                    range="0 <= dD <= 2e+09",
-                    unit="m",
-                ) from None
-            raise
+            if error.name not in ("R", "dR"):
+                raise
+            word, value, limits = {
+                "R": ("diameter", self.D, "2e-09 <= D <= 2e+09"),
+                "dR": ("diameter_uncertainty", self.dD, "0 <= dD <= 2e+09"),
+            }[error.name]  # the diameter was measured
+            raise TopError(say(f"build.own.{word}"), value, "{range} ({unit})", range=limits, unit="m") from None
 
 
 def rocks_once(shape: Shape) -> float:

@@ -8,7 +8,6 @@ from tippe_core import BareSphere, Lathe, LoadedSphere, OrdinaryTop, Shape, Stem
 from tippe_core.bodies.inside import across
 
 Point: TypeAlias = tuple[float, float]
-LOWER_LEFT = (-math.sqrt(0.5), -math.sqrt(0.5))
 
 
 class Measure(NamedTuple):
@@ -48,8 +47,8 @@ WHILE_HELD = ("hole", "thickness", "height")  # otherwise there is no room for t
 
 def measures(shape: Shape) -> list[Measure]:
     """The Measures of a body that can be drawn, from below."""
-    R = shape.R
-    found = [] if isinstance(shape, Lathe | Turned) else [Measure("R", (0.0, 0.0), _along(R, LOWER_LEFT))]
+    R, low = shape.R, -shape.R * math.sqrt(0.5)
+    found = [] if isinstance(shape, Lathe | Turned) else [Measure("R", (0.0, 0.0), (low, low))]
     if isinstance(shape, TruncatedSphere):
         rim = across(R, shape.c)
         found.append(Measure("c", (0.0, 0.0), (rim, shape.c)))
@@ -75,10 +74,6 @@ def measures(shape: Shape) -> list[Measure]:
             end = (0.0, shape.h)
             found += [Measure("h", (0.0, 0.0), end), Measure("r", end, (end[0] - shape.r, end[1]))]
     return found
-
-
-def _along(length: float, way: Point) -> Point:
-    return length * way[0], length * way[1]
 
 
 def _stem(r: float, foot: float, length: float, rim: float) -> list[Measure]:

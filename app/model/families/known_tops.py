@@ -11,7 +11,8 @@ from app.model.bodies import body
 from app.model.build.builder import thrown
 from app.model.families.family import Region, region
 from app.model.scene import Scene
-from tippe_core import PRESETS, Preset, Thresholds, Top, thresholds
+from app.model.setup import TOYS
+from tippe_core import PRESETS, Thresholds, Top, thresholds
 from tippe_core.types import Array
 
 SAME = 5e-4  # in a/R and I1/I3: tops that are closer share one point
@@ -61,10 +62,7 @@ class KnownTop:
 
     def shown(self, mu_s: float) -> Region:
         """Its Figs. 5 and 6, with the spin that a new body is given."""
-        return region(self.name, self.top, thrown(PRESET_OF[self.name].shape, self.top)[1], mu_s)
-
-
-PRESET_OF: dict[str, Preset] = {preset.name: preset for preset in PRESETS}
+        return region(self.name, self.top, thrown(TOYS[self.name].shape, self.top)[1], mu_s)
 
 
 @cache

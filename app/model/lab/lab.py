@@ -194,16 +194,13 @@ class Lab(param.Parameterized):
     @property
     def reached(self) -> float:
         """How much of the present run is done, 0 to 1."""
-        if self._run is None:
-            return 0.0
-        return self._run.reached
+        return self._run.reached if self._run else 0.0
 
     def stop(self) -> None:
         """Stops the present run; the inputs go back to those of the scene that is shown."""
-        if self._run is None:
-            return
-        self._run.stop()
-        self._set(self._back)
+        if self._run:
+            self._run.stop()
+            self._set(self._back)
 
     @property
     def _key(self) -> Setup | None:

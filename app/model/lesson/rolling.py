@@ -5,15 +5,7 @@ import numpy as np
 from app.model.colours import COLOURS, GREY
 from app.model.lesson.parts import FEW, Answer, Curve, Picture, Point, level, limit_words, selected, tied
 from app.model.scene import Scene
-from tippe_core import (
-    Constants,
-    allowed_shares,
-    f,
-    f1_squared,
-    normal_force,
-    pole_constants,
-    tielines,
-)
+from tippe_core import Constants, allowed_shares, f, f1_squared, normal_force, pole_constants, tielines
 
 
 def turning(scene: Scene) -> Answer:

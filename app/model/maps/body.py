@@ -4,7 +4,7 @@ import numpy as np
 
 from app.model.bodies import body, outline
 from app.model.maps.maps import OWN, Cell, Map
-from tippe_core import PRESETS, Shape
+from app.model.setup import TOYS
 from tippe_core.types import Array
 
 
@@ -14,14 +14,10 @@ def outline_of(asked: Map, cell: Cell, own: Array | None) -> Array:
     axes = {asked.across, asked.up}
     if {"a", "ratio"} & axes or (asked.body == OWN and own is None):
         return outline(cell.top)
-    drawn = own if own is not None and asked.body == OWN else body(_shape(asked.body))
+    drawn = own if own is not None and asked.body == OWN else body(TOYS[asked.body].shape)
     if cell.edge is None or not {"stem", "rounding"} & axes:
         return drawn
     radius, height, rounding = (*cell.edge, 0.0)[:3]
     r, h = drawn.T
     foot, old = float(np.sqrt(max(1 - (radius + rounding) ** 2, 0.0))), float(h.max())
     return np.column_stack([r, np.where(h > foot, foot + (h - foot) * (height + rounding - foot) / (old - foot), h)])
-
-
-def _shape(name: str) -> Shape:
-    return next(preset.shape for preset in PRESETS if preset.name == name)

@@ -19,8 +19,5 @@ class MapChoice(param.Parameterized):
     asked = param.ClassSelector(class_=Map, default=Map(), doc="the map")
     colour: Any = param.Selector(default="end", objects=[*COLOURS_BY], doc="what its colours show")
     place = param.List(
-        default=[*AT],
-        item_type=float,
-        bounds=(2, 2),
-        doc="the position of the bead, in the units of the axes",
+        default=[*AT], item_type=float, bounds=(2, 2), doc="the position of the bead, in the units of the axes"
     )

@@ -8,13 +8,14 @@ import numpy as np
 
 from app.model.maps.maps import Map
 from app.model.maps.solving import Level
-from tippe_core import Thresholds, Top, TopError, strongest_friction, thresholds
+from tippe_core import TopError, strongest_friction, thresholds
 from tippe_core.paper import equations as eq
 from tippe_core.types import Array, Bools
 
 FINE = 61  # points along each side at which the closed forms are evaluated
 MANY = 20  # more hops than this cost the top a noticeable part of its spin
 TURNED = ("stem", "inverted")
+_strongest, _limits = lru_cache(256)(strongest_friction), lru_cache(256)(thresholds)
 WINDOW = ("window_low", "window_high")  # I1/I3 = 1 - a/R and 1 + a/R: the borders between the groups of tops
 
 
@@ -40,16 +41,6 @@ class Reason(NamedTuple):
     why: str
     runs: int
     one: tuple[float, float]
-
-
-@lru_cache(256)
-def _strongest(top: Top) -> float:
-    return strongest_friction(top)
-
-
-@lru_cache(256)
-def _limits(top: Top) -> Thresholds:
-    return thresholds(top)
 
 
 def _excess(asked: Map, x: float, y: float) -> dict[str, float]:

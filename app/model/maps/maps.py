@@ -3,15 +3,16 @@
 Values are in rev/s, degrees, s and mm; a/R and I1/I3 are dimensionless. The runs are in units of R, M and g.
 """
 
+from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
-from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from app.model.scene import Scene
-from app.model.setup import by_hand
+from app.model.setup import TOYS, by_hand
 from tippe_core import PRESETS, Contensou, Coulomb, Friction, Scales, SmoothedCoulomb, State, Top, TopError, Viscous
 from tippe_core.types import Array, Rim
 
@@ -47,6 +48,8 @@ QUANTITIES = {
     "stem": Quantity(0.0, 1000.0, 10.0, 25.0, "mm"),
     "rounding": Quantity(0.0, 100.0, 1.0, 8.0, "mm"),
 }
+OF_BODY = {"a", "ratio", "R", "stem", "rounding"}
+"""Those of the body; a run of another one is none of the Lab's."""
 SECONDS = {"coulomb": "mu_s", "viscous": "", "smoothed": "eps", "contensou": "radius"}
 """{law: what its second parameter is}: static friction; a speed in (gR)^1/2; the radius of the patch in mm."""
 UNITS = {"theta_end": "°", "time_90": "s", "time_stem": "s", "hops": "", "flew": "", "F_z_least": "Mg", "heat": "MgR",
@@ -64,7 +67,7 @@ class Body(NamedTuple):
 @cache
 def of_preset(name: str) -> Body:
     """The Body of tippe_core.PRESETS with this name."""
-    preset = next(preset for preset in PRESETS if preset.name == name)
+    preset = TOYS[name]
     return Body(preset.top, preset.shape.scales, preset.shape.edge)
 
 
@@ -157,7 +160,11 @@ class Map:
 
     def at(self, across: float, up: float) -> "Cell":
         """The Cell at these values of the axes."""
-        return Cell.of(self, self.start | {self.across: float(across), self.up: float(up)})
+        return Cell.of(self, self.values_at(across, up))
+
+    def values_at(self, across: float, up: float) -> dict[str, float]:
+        """{name: value} of all QUANTITIES there."""
+        return self.start | {self.across: float(across), self.up: float(up)}
 
 
 class Cell(NamedTuple):
@@ -199,16 +206,13 @@ def _law(law: str, x: dict[str, float], scales: Scales) -> Friction:
     return Contensou(x["mu"], x["second"] / 1e3 / scales.R)
 
 
-def cells_of(asked: Map, places: list[tuple[float, float]]) -> SimpleNamespace:
-    """The arguments of slide_many() for these places, and which of the places are possible."""
-    found: list[Cell | None] = []
-    for across, up in places:
-        try:
-            found.append(asked.at(across, up))
-        except TopError:
-            found.append(None)
-    good = [cell for cell in found if cell is not None]
-    return SimpleNamespace(good=good, which=np.array([cell is not None for cell in found], bool))
+def cells_of(asked: Map, places: Iterable[tuple[float, float]]) -> dict[int, Cell]:
+    """{index of a place: its Cell} of those places that are possible."""
+    found = {}
+    for i, (across, up) in enumerate(places):
+        with suppress(TopError):
+            found[i] = asked.at(across, up)
+    return found
 
 
 def _check(name: str, value: Any) -> None:

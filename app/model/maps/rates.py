@@ -1,13 +1,13 @@
 """How fast small tilts grow and rotate, by linear theory and in runs; and how the time of inversion scales."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from app.model.maps.maps import LAWS, Cell, Map
-from app.model.maps.steady import at_place, fixed, launch
+from app.model.maps.steady import fixed, launch
+from app.model.motion import Progress
 from tippe_core import State, TopError, slide, slide_many, spinning_modes, steady_states, tumbling_modes
 from tippe_core.types import Array
 
@@ -18,7 +18,6 @@ FOLDS = 3.0  # e-foldings over which the growth of a run is measured
 MOST_TIME = 400.0  # (R/g)^1/2: the longest run for this
 POINTS = 9  # runs for each power law
 REACH = 1.5  # the runs extend from 1/REACH to REACH times the value at the bead
-Look = Callable[[float], object]
 
 
 class Branch(NamedTuple):
@@ -64,9 +63,9 @@ class Rates:
     powers: tuple[Power, ...]
 
 
-def rates(asked: Map, place: tuple[float, float], look: Look | None = None) -> Rates:
+def rates(asked: Map, place: tuple[float, float], look: Progress | None = None) -> Rates:
     """The Rates at the bead. Raises TopError if there is no such top."""
-    own, x = fixed(asked, place), at_place(asked, place)
+    own, x = fixed(asked, place), asked.values_at(*place)
     low, high = own.across_range
     spin = np.linspace(max(low, 0.0), high, SPINS)
     if high <= 0:
@@ -110,7 +109,7 @@ def _mode(name: str, here: Cell, C_J: float) -> complex:
     return complex(np.delete(modes, np.argmin(np.abs(modes)))[0])  # without that along the family of steady motions
 
 
-def _branch(name: str, here: Cell, spin: Array, look: Look | None) -> Branch:
+def _branch(name: str, here: Cell, spin: Array, look: Progress | None) -> Branch:
     unit, per_spin, of_runs = here.scales.angular_velocity, launch(here), np.empty((0, 2))
     modes = unit * np.array([_mode(name, here, per_spin * each) for each in spin])
     if name != "tumbling" and here.friction.law.kind != 0:
@@ -125,7 +124,7 @@ def _own_spin(name: str, C_J: float, here: Cell) -> float:
     return C_J / (here.top.I3 * (c - here.top.a))
 
 
-def _grown(name: str, here: Cell, C_J: float, look: Look | None) -> tuple[float, float]:
+def _grown(name: str, here: Cell, C_J: float, look: Progress | None) -> tuple[float, float]:
     """(the C_J that is left then, since pivoting reduces it; the growth rate of the tilt from the pole in a run, nan if
     it decays)."""
     top, law, spin = here.top, here.friction, _own_spin(name, C_J, here)
@@ -147,7 +146,7 @@ def _grown(name: str, here: Cell, C_J: float, look: Look | None) -> tuple[float,
     return float(moved.jellett[late].mean()), float(growth)
 
 
-def powers(own: Map, x: dict[str, float], look: Look | None = None) -> tuple[Power, ...]:
+def powers(own: Map, x: dict[str, float], look: Progress | None = None) -> tuple[Power, ...]:
     """The scaling of the time to reach 90 degrees with the spin, mu, and the second parameter of each friction law."""
     found = []
     for law in LAWS:
@@ -157,7 +156,7 @@ def powers(own: Map, x: dict[str, float], look: Look | None = None) -> tuple[Pow
     return tuple(found)
 
 
-def _power(own: Map, law: str, quantity: str, x: dict[str, float], look: Look | None) -> Power:
+def _power(own: Map, law: str, quantity: str, x: dict[str, float], look: Progress | None) -> Power:
     by = np.geomspace(1 / REACH, REACH, POINTS)
     cells, values = [], []
     for each in by:

@@ -1,6 +1,6 @@
 """Solves a Map in pieces, from coarse to fine, so that it can be stopped between two pieces; each cell is one run."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import NamedTuple, TypeAlias
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.maps.maps import NUDGE, UNITS, Map, cells_of
+from app.model.motion import Progress
 from tippe_core import Trajectory, ending, slide, slide_many
 from tippe_core.types import Array, Bools
 
@@ -17,7 +18,6 @@ GROWS = 1e3  # if a nudge grows by this factor, runs between neighbouring cells 
 CURVE, MOST_CURVE = 900, 2400  # samples of a run that is drawn
 TURN = 1.5  # rad: the largest rotation between two of them, if possible
 Ends: TypeAlias = NDArray[np.str_]
-Progress: TypeAlias = Callable[[float], object]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -111,16 +111,16 @@ def _empty(asked: Map, n: int) -> Level:
 
 def _fill(level: Level, piece: NDArray[np.intp], share: float, look: Progress | None) -> None:
     asked, (rows, columns) = level.asked, np.divmod(piece, len(level.x))
-    found = cells_of(asked, list(zip(level.x[columns].tolist(), level.y[rows].tolist(), strict=True)))
+    found = cells_of(asked, zip(level.x[columns].tolist(), level.y[rows].tolist(), strict=True))
     level.end[rows, columns] = "refused"
-    if not found.good:
+    if not found:
         return
-    tops, scales, edges, states, laws, t_end = zip(*found.good, strict=True)
+    tops, scales, edges, states, laws, t_end = zip(*found.values(), strict=True)
     edge = None if edges[0] is None else np.array(edges)
     told = None if look is None else lambda _: look(share)
     many = slide_many(list(tops), list(states), list(laws), np.array(t_end), edge, rtol=asked.rtol,
                       nudge=NUDGE if asked.nudged else None, progress=told)  # fmt: skip
-    at, time = (rows[found.which], columns[found.which]), np.array([each.time for each in scales])
+    at, time = (rows[[*found]], columns[[*found]]), np.array([each.time for each in scales])
     level.end[at] = many.end
     units = {"theta_end": 180 / np.pi, "time_90": time, "time_stem": time}
     refused = many.end == "refused"

@@ -3,14 +3,14 @@
 All at the tilt, friction and law of a Map's bead; rev/s across, degrees up.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.model.maps.maps import QUANTITIES, Cell, Map
+from app.model.maps.maps import OF_BODY, QUANTITIES, Cell, Map
+from app.model.motion import Progress
 from app.model.phases import phases, samples
 from tippe_core import States, Top, slide, slide_many, steady_states
 from tippe_core.paper import equations as eq
@@ -21,7 +21,6 @@ MOST_SECONDS = 60.0
 DRIFT = 1200  # samples of the long run, denser at its beginning, where it moves faster
 NO_END = "refused", "moving"
 DIFFER = 5.0  # degrees: the least difference between the sweeps up and down that counts as hysteresis
-Look = Callable[[float], object]
 Words = NDArray[np.str_]
 
 
@@ -86,15 +85,10 @@ def spins_of(asked: Map) -> tuple[float, float]:
     return QUANTITIES["spin"].low, QUANTITIES["spin"].high
 
 
-def at_place(asked: Map, place: tuple[float, float]) -> dict[str, float]:
-    """{name: value} of QUANTITIES at the bead."""
-    return asked.start | {asked.across: place[0], asked.up: place[1]}
-
-
 def fixed(asked: Map, place: tuple[float, float]) -> Map:
     """The Map over spin and tilt through the bead of another Map."""
-    x, axes = at_place(asked, place), (asked.across, asked.up)
-    if set(axes) & {"a", "ratio", "R", "stem", "rounding"}:
+    x, axes = asked.values_at(*place), (asked.across, asked.up)
+    if {*axes} & OF_BODY:
         cell = asked.at(*place)
         own = asked.thing._replace(top=cell.top, scales=cell.scales, edge=cell.edge)
         asked = replace(asked, body="", own=own)
@@ -142,9 +136,9 @@ def _cut(spin: Array, theta: Array, stable: Array) -> list[Line]:
             if there[first] and last - first > 1]  # fmt: skip
 
 
-def bifurcation(asked: Map, place: tuple[float, float], look: Look | None = None) -> Bifurcation:
+def bifurcation(asked: Map, place: tuple[float, float], look: Progress | None = None) -> Bifurcation:
     """The Bifurcation through the bead. Raises TopError if there is no such top."""
-    own, x = fixed(asked, place), at_place(asked, place)
+    own, x = fixed(asked, place), asked.values_at(*place)
     low, high = own.across_range
     here = own.at(x["spin"], x["tilt"])
     spin = np.linspace(low, high, RUNS)
@@ -162,7 +156,7 @@ def bifurcation(asked: Map, place: tuple[float, float], look: Look | None = None
                        up_end=up_end, down_end=down_end[::-1], life=life(here, look))  # fmt: skip
 
 
-def _sweep(own: Map, tilt: float, spins: Array, look: Look | None) -> tuple[Array, Words]:
+def _sweep(own: Map, tilt: float, spins: Array, look: Progress | None) -> tuple[Array, Words]:
     """The final tilt of each run, and its end; it starts where the one before ended, with all velocities scaled to give
     the C_J of the next spin. A run that was refused is nan, and the next one starts afresh."""
     found, ends, state = np.full(len(spins), np.nan), np.full(len(spins), "refused", "<U8"), None
@@ -195,7 +189,7 @@ def _brought(state: States, cell: Cell) -> States | None:
     return state._replace(**{name: by * getattr(state, name) for name in names})
 
 
-def life(here: Cell, look: Look | None) -> Life:
+def life(here: Cell, look: Progress | None) -> Life:
     """The run at the bead for MOST_SECONDS."""
     time = here.scales.time
     times = MOST_SECONDS / time * np.linspace(0, 1, DRIFT) ** 2

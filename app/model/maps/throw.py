@@ -1,15 +1,13 @@
 """A place on a map as a start by hand in the Lab."""
 
-from app.model.maps.maps import OWN, Map
+from app.model.maps.maps import OF_BODY, OWN, Map
 from app.model.setup import PATCH, TOYS
-
-CHANGED = {"a", "ratio", "R", "stem", "rounding"}
 
 
 def throw_of(asked: Map, across: float, up: float) -> tuple[str, float, float, float] | None:
     """(toy, spin in rev/s, tilt in degrees, mu); None if the Lab has no such run."""
-    x = asked.start | {asked.across: across, asked.up: up}
+    x = asked.values_at(across, up)
     same = asked.law == "contensou" and abs(x["second"] - PATCH) < 1e-9 and x["slip"] == 1.0
-    if asked.body == OWN or asked.body not in TOYS or {asked.across, asked.up} & CHANGED or not same:
+    if asked.body == OWN or asked.body not in TOYS or {asked.across, asked.up} & OF_BODY or not same:
         return None
     return asked.body, x["spin"], x["tilt"], x["mu"]

@@ -6,7 +6,9 @@ names; phyphox puts names and units in quotes; spreadsheets use semicolons, deci
 
 import math
 import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 
@@ -99,21 +101,23 @@ def _names(heads: list[list[str]]) -> list[str] | None:
     """The names from the last line above the numbers, with the units of the line below them if that contains only
     units, and below the point that Tracker followed if several columns have the same name. Capstone's run may have a
     line of its own."""
-    of_run = next(
-        (cells for cells in heads[-2:] if any(cells) and all(not cell or is_run(cell) for cell in cells)), None
-    )
-    if of_run and len(heads) > 1:
-        names = next(cells for cells in heads[-2:] if cells is not of_run)
-        return [f"{name} {run}".strip() for name, run in zip(names, of_run, strict=True)]
-    if len(heads) > 1 and all(not cell or is_unit(cell) for cell in heads[-1]) and any(heads[-1]):
-        return [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in zip(*heads[-2:], strict=True)]
-    if len(heads) > 1 and len(set(heads[-1])) < len(heads[-1]) and not heads[-2][0]:
-        names, point = [], ""
-        for above, name in zip(*heads[-2:], strict=True):
-            point = above or point
-            names.append(f"{point} {name}".strip())
-        return names
-    return heads[-1] if heads else None
+    if len(heads) < 2:
+        return heads[-1] if heads else None
+    above, names = heads[-2:]
+    for of_run, others in ((above, names), (names, above)):
+        if _all_are(is_run, of_run):
+            return [f"{name} {run}".strip() for name, run in zip(others, of_run, strict=True)]
+    if _all_are(is_unit, names):
+        return [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in zip(above, names, strict=True)]
+    if len(set(names)) < len(names) and not above[0]:
+        points: Iterator[str] = accumulate(above, lambda before, point: point or before)
+        return [f"{point} {name}".strip() for point, name in zip(points, names, strict=True)]
+    return names
+
+
+def _all_are(is_one: Callable[[str], bool], cells: list[str]) -> bool:
+    """Whether all cells that are not empty are such, and some are not empty."""
+    return any(cells) and all(not cell or is_one(cell) for cell in cells)
 
 
 def _without_end(cells: list[str], width: int) -> list[str]:
@@ -234,14 +238,11 @@ def _table(names: list[str] | None, rows: list[Row], between: str, whole: bool =
 
 def _check_decimals(rows: list[Row]) -> None:
     """Raises MeasuredError if some numbers have a decimal comma and others a point."""
-    first = ""
-    for number, cells in rows:
-        for cell in cells:
-            mark = next((mark for mark in ".," if mark in cell), "")
-            if mark and NUMBER.fullmatch(cell):
-                first = first or mark
-                if mark != first:
-                    raise MeasuredError("decimals", line=number, text=cell, mark=first)
+    marked = [(mark, number, cell) for number, cells in rows for cell in cells for mark in ".,"
+              if mark in cell and NUMBER.fullmatch(cell)]  # fmt: skip
+    for mark, number, cell in marked:
+        if mark != marked[0][0]:
+            raise MeasuredError("decimals", line=number, text=cell, mark=marked[0][0])
 
 
 def _value(cell: str, line: int, name: str) -> float:

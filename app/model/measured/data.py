@@ -113,9 +113,8 @@ def settled(table: Table, rate: float = 0.0) -> Data:
     series = {column.quantity: _series(column, t, known, lines) for column in used if column is not time}
     for one, other in TOGETHER:
         if (one in series) != (other in series):
-            raise MeasuredError(
-                "half-a-track", here=one if one in series else other, missing=other if one in series else one
-            )
+            here, missing = (one, other) if one in series else (other, one)
+            raise MeasuredError("half-a-track", here=here, missing=missing)
     if not series:
         raise MeasuredError("nothing", line=max(table.lines[0] - 1, 1))
     for one, other in TOGETHER:

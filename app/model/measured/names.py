@@ -21,23 +21,11 @@ RATES = {"rev/s": 2 * math.pi, "rad/s": 1.0, "deg/s": math.pi / 180, "rpm": math
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 UNITS = {
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "frames": 1.0},
-    "tilt": ANGLES,
-    "azimuth": ANGLES,
-    "spin": RATES,
-    "precession": RATES,
-    "height": LENGTHS,
-    "tip": LENGTHS,
-    "x": LENGTHS,
-    "y": LENGTHS,
-    "tip_x": LENGTHS,
-    "tip_y": LENGTHS,
-    "side": LENGTHS,
-    "tip_side": LENGTHS,
+    **dict.fromkeys(("tilt", "azimuth"), ANGLES),
+    **dict.fromkeys(("spin", "precession"), RATES),
+    **dict.fromkeys(("height", "tip", "x", "y", "tip_x", "tip_y", "side", "tip_side"), LENGTHS),
     "line": ANGLES,
-    "axis_side": LENGTHS,
-    "axis_up": LENGTHS,
-    "axis_x": LENGTHS,
-    "axis_y": LENGTHS,
+    **dict.fromkeys(("axis_side", "axis_up", "axis_x", "axis_y"), LENGTHS),
 }
 """{quantity: {unit: its size in s, rad, rad/s or m}}; for frames the frame rate is needed as well."""
 

@@ -4,28 +4,6 @@ from app.model.measured.data import Data
 from app.model.measured.film import MICRO, said_time, table_of
 from app.model.measured.fit import Fit
 
-PROGRAM = '''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder.
-
-It prints angles in rad, and all other numbers in units of R, M and g.
-"""
-
-from app.model.measured.data import settled
-from app.model.measured.fit import fit_both
-from app.model.measured.table import read
-from app.model.measured.work import models
-from tippe_core import Scales, Top
-
-TABLE = """{table}"""
-
-data = settled(read(TABLE)).between({start!r}, {end!r})
-top, scales = Top({a!r}, {I1!r}, {I3!r}), Scales({R!r}, {M!r}, {g!r})
-rolling, sliding = models(top, scales, None, {law!r}, {loose!r})
-for found in fit_both((rolling{edge}, sliding{edge}), data):
-    print(found.model.name, f"chi-square {{found.chi2:.1f}} for {{found.freedom}} degrees of freedom")
-    for number, error in found.errors.items():
-        print(f"  {{number}} = {{found.model.values[number]:.6g}} +- {{error:.2g}}")
-'''
-
 
 def residuals_table(data: Data, fit: Fit) -> str:
     """One row for each value: its time, its quantity, the measured and the fitted value in s, rad, m, and the residual
@@ -43,6 +21,24 @@ def program(data: Data, fits: tuple[Fit, ...], loose: tuple[str, ...], start: fl
     top, scales = model.top, model.scales
     edge = "" if model.edge is None else f".with_stem({model.edge!r}, {model.tip!r})"
     start, end = round(start, MICRO), round(end, MICRO)
-    return PROGRAM.format(table=table_of(data), start=start, end=end, a=top.a, I1=top.I1, I3=top.I3, R=scales.R,
-                          M=scales.M, g=scales.g, law=fits[-1].model.name, loose=loose,
-                          edge=edge)  # fmt: skip
+    return f'''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder.
+
+It prints angles in rad, and all other numbers in units of R, M and g.
+"""
+
+from app.model.measured.data import settled
+from app.model.measured.fit import fit_both
+from app.model.measured.table import read
+from app.model.measured.work import models
+from tippe_core import Scales, Top
+
+TABLE = """{table_of(data)}"""
+
+data = settled(read(TABLE)).between({start!r}, {end!r})
+top, scales = Top({top.a!r}, {top.I1!r}, {top.I3!r}), Scales({scales.R!r}, {scales.M!r}, {scales.g!r})
+rolling, sliding = models(top, scales, None, {fits[-1].model.name!r}, {loose!r})
+for found in fit_both((rolling{edge}, sliding{edge}), data):
+    print(found.model.name, f"chi-square {{found.chi2:.1f}} for {{found.freedom}} degrees of freedom")
+    for number, error in found.errors.items():
+        print(f"  {{number}} = {{found.model.values[number]:.6g}} +- {{error:.2g}}")
+'''

@@ -129,7 +129,6 @@ def _chosen(columns: tuple[Column, ...], roles: Roles, run: str, view: str, file
     """The columns, each as what its name says; of several with the same quantity, the one that says its unit. A run
     without a time of its own has that of the first one."""
     timed = {without_run(each.name)[1] for each in columns if understood(each.name)[0] == "time"}
-    quantities: dict[int, str] = {}
     said = [understood(column.name) for column in columns]
     ranks: dict[str, tuple[bool, bool, int]] = {}
     for i, (quantity, unit, _) in enumerate(said):
@@ -139,9 +138,8 @@ def _chosen(columns: tuple[Column, ...], roles: Roles, run: str, view: str, file
             continue
         counted = likely(quantity, columns[i].values, columns[i].name) != "frames"
         rank = unit in UNITS[quantity], counted, -i
-        if rank > ranks.get(quantity, (False, False, -len(columns))):
-            quantities = {at: each for at, each in quantities.items() if each != quantity} | {i: quantity}
-            ranks[quantity] = rank
+        ranks[quantity] = max(rank, ranks.get(quantity, rank))
+    quantities = {-rank[-1]: quantity for quantity, rank in ranks.items()}
     for i, (side, above) in roles.items():
         quantity = above if view == "above" else side
         if quantity not in quantities.values() and np.isfinite(columns[i].values).any():

@@ -13,16 +13,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from app.model.stretches import EDGE, Long, Window, Z, column, dot
-from tippe_core import (
-    f,
-    f1_squared,
-    f2_squared,
-    f3_squared,
-    friction_force,
-    normal_force,
-    omega2,
-    omega3,
-)
+from tippe_core import f, f1_squared, f2_squared, f3_squared, friction_force, normal_force, omega2, omega3
 from tippe_core.types import Array, Number, Scalars
 
 Reading: TypeAlias = Callable[[Window], Long]
@@ -239,24 +230,20 @@ class Symbol(NamedTuple):
 
 
 def _vector(get: Reading, start: str = "com") -> dict[str, Number]:
-    return {"value": lambda m: m.turning(get(m)), "arrow": lambda m: m.turning(get(m)), "start": start}
+    return _part(lambda m: m.turning(get(m)), get, start)
 
 
 def _part(value: Reading, arrow: Reading, start: str = "com") -> dict[str, Number]:
     return {"value": value, "arrow": lambda m: m.turning(arrow(m)), "start": start}
 
 
-def _number(value: Reading) -> dict[str, Number]:
-    return {"value": value}
-
-
 SYMBOLS = {
-    "M": Symbol(("M",), **_number(lambda m: constant(m, 1.0))),
+    "M": Symbol(("M",), lambda m: constant(m, 1.0)),
     "R": Symbol(("R",), **_part(lambda m: constant(m, 1.0), lambda m: np.broadcast_to(Z, m.r.shape), "contact")),
     "a": Symbol(("a",), **_part(lambda m: constant(m, m.a), lambda m: m.a * m.axis)),
-    "I1": Symbol(("I1",), **_number(lambda m: constant(m, m.I1))),
-    "I3": Symbol(("I3",), **_number(lambda m: constant(m, m.I3))),
-    "dI": Symbol(("ΔI",), **_number(lambda m: constant(m, m.dI))),
+    "I1": Symbol(("I1",), lambda m: constant(m, m.I1)),
+    "I3": Symbol(("I3",), lambda m: constant(m, m.I3)),
+    "dI": Symbol(("ΔI",), lambda m: constant(m, m.dI)),
     "theta": Symbol(("θ",), **_part(lambda m: m.theta, lambda m: m.axis)),
     "omega": Symbol(("ω→",), **_vector(lambda m: m.omega)),
     "w1": Symbol(("ω1′", "ω1′2"), **_part(lambda m: m.w1, lambda m: column(m.w1) * m.e1)),
@@ -280,16 +267,16 @@ SYMBOLS = {
     "w": Symbol(("w→",), **_vector(lambda m: m.weight)),
     "three": Symbol(("3^",), **_vector(lambda m: m.axis)),
     "z": Symbol(("z^",), **_vector(lambda m: np.broadcast_to(Z, m.r.shape))),
-    "E": Symbol(("E",), **_number(lambda m: m.motion.energy)),
-    "Ep": Symbol(("E′",), **_number(lambda m: constant(m, m.constants.two_E_prime(m.top) / 2))),
-    "C_J": Symbol(("CJ",), **_number(lambda m: m.motion.jellett)),
-    "J": Symbol(("J",), **_number(lambda m: m.motion.jellett)),
-    "K_J": Symbol(("KJ",), **_number(lambda m: m.motion.jellett / m.I1)),
-    "K_R": Symbol(("KR", "KR2"), **_number(lambda m: m.motion.routh)),
-    "f": Symbol(("f", "f′", "f1/2"), **_number(lambda m: m.of(f))),
-    "f1": Symbol(("f12",), **_number(lambda m: np.sqrt(f1_squared(m.theta, m.top)))),
-    "f2": Symbol(("f22",), **_number(lambda m: np.sqrt(f2_squared(m.theta, m.top)))),
-    "f3": Symbol(("f3", "f32", "f33"), **_number(lambda m: np.sqrt(f3_squared(m.theta, m.top)))),
+    "E": Symbol(("E",), lambda m: m.motion.energy),
+    "Ep": Symbol(("E′",), lambda m: constant(m, m.constants.two_E_prime(m.top) / 2)),
+    "C_J": Symbol(("CJ",), lambda m: m.motion.jellett),
+    "J": Symbol(("J",), lambda m: m.motion.jellett),
+    "K_J": Symbol(("KJ",), lambda m: m.motion.jellett / m.I1),
+    "K_R": Symbol(("KR", "KR2"), lambda m: m.motion.routh),
+    "f": Symbol(("f", "f′", "f1/2"), lambda m: m.of(f)),
+    "f1": Symbol(("f12",), lambda m: np.sqrt(f1_squared(m.theta, m.top))),
+    "f2": Symbol(("f22",), lambda m: np.sqrt(f2_squared(m.theta, m.top))),
+    "f3": Symbol(("f3", "f32", "f33"), lambda m: np.sqrt(f3_squared(m.theta, m.top))),
 }  # fmt: skip
 
 

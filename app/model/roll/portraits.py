@@ -59,19 +59,10 @@ def track(scene: Scene, points: int | None = None) -> Seen:
         return Seen(t=t, x=x, y=y, rings=(), along=np.hypot(x, y), across=np.zeros(len(t)), width=0.0)
     centre_x, centre_y, nearest, farthest = scene.rosette
     angle = np.unwrap(np.arctan2(y - centre_y, x - centre_x))
-    rings = tuple(
-        (centre_x + dx, centre_y + dy)
-        for dx, dy in (circle(radius, *_arc(angle, farthest)) for radius in (nearest, farthest))
-    )
-    return Seen(
-        t=t,
-        x=x,
-        y=y,
-        rings=rings,
-        along=(nearest + farthest) / 2 * np.abs(angle - angle[0]),
-        across=np.hypot(x - centre_x, y - centre_y) - nearest,
-        width=farthest - nearest,
-    )
+    arcs = (circle(radius, *_arc(angle, farthest)) for radius in (nearest, farthest))
+    rings = tuple((centre_x + dx, centre_y + dy) for dx, dy in arcs)
+    return Seen(t=t, x=x, y=y, rings=rings, along=(nearest + farthest) / 2 * np.abs(angle - angle[0]),
+                across=np.hypot(x - centre_x, y - centre_y) - nearest, width=farthest - nearest)  # fmt: skip
 
 
 def _arc(angle: Array, radius: float) -> tuple[float, float]:

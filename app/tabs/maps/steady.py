@@ -10,7 +10,7 @@ from bokeh.models import ColumnDataSource, Line, MultiLine, Scatter
 from app.model import ends
 from app.model.colours import ACCENT, INK
 from app.model.maps.rates import rates
-from app.model.maps.steady import at_place, bifurcation, spins_of
+from app.model.maps.steady import bifurcation, spins_of
 from app.model.runs import MAPS, Run, Stopped
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, told
@@ -80,7 +80,7 @@ class Steady:
 
     def show(self, asked, place):
         """Computes and draws the results for the bead at a place of a Map."""
-        x = at_place(asked, place)
+        x = asked.values_at(*place)
         self.here.data = {"x": [x["spin"]] * 2, "y": [0.0, 184.0]}
         moved = {name: value for name, value in x.items() if name != "spin"}
         key = (asked.body, asked.own, asked.law, asked.seconds, asked.across, asked.up, asked.across_range,
