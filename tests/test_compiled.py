@@ -47,14 +47,16 @@ def total(x, n):
         s += square(x)
     return s
 """
-# Prints the results, how many kernels were compiled and how many found, and why they are not stored.
+# Prints the results, how many kernels were compiled and how many found, and why they are not stored; then which the
+# process says that it had to compile.
 RUN = """import json, os
 import numpy as np
 from tippe_core import kept
 from tippe_core.caller import total
-from tippe_core.compiled import not_kept, why_not
+from tippe_core.compiled import made, not_kept, why_not
 print(json.dumps([float(total({}, 3)), *(sum(getattr(total.dispatcher.stats, name).values()) for name in
       ("cache_misses", "cache_hits")), not_kept(), why_not(), os.fspath(kept.folder() or "")]))
+print(json.dumps([name.partition("(")[0] for name in made]))
 """
 # The same of all these arguments.
 ALL_FOUND = """import json
@@ -88,7 +90,8 @@ class Package:
     def run(self, *arguments, **named):
         said, errors = (process := self.begin(*arguments, **named)).communicate()
         assert process.returncode == 0, errors
-        return json.loads(said)
+        found, *self.made = map(json.loads, said.splitlines())
+        return found
 
     def found(self):
         return sorted(path.name for path in (self.folder / "__pycache__").glob("kernels-*"))
@@ -101,17 +104,17 @@ def package(tmp_path):
 
 @pytest.fixture(scope="module")
 def compiled_once(tmp_path_factory):
-    """(what the first run of a Package printed, where it was)."""
+    """A Package after its first run, and what that printed."""
     package = Package(tmp_path_factory.mktemp("package"))
-    return package.run(), package.folder
+    return package, package.run()
 
 
 @pytest.fixture
 def stored(package, compiled_once):
     """A Package whose kernels are stored, as after its first run."""
-    (*_, there), folder = compiled_once
-    shutil.copytree(folder / "__pycache__", package.folder / "__pycache__")
-    package.stored = package.folder / Path(there).relative_to(folder)
+    before, (*_, there) = compiled_once
+    shutil.copytree(before.folder / "__pycache__", package.folder / "__pycache__")
+    package.stored = package.folder / Path(there).relative_to(before.folder)
     return package
 
 
@@ -136,10 +139,11 @@ def read_only(package, tmp_path):
 
 
 def test_a_kernel_is_compiled_once_and_then_found(compiled_once, stored):
-    (value, compiled_now, found, *reasons, there), folder = compiled_once
+    before, (value, compiled_now, found, *reasons, there) = compiled_once
     assert (value, compiled_now, found, reasons) == (12.0, 1, 0, ["", ""])
-    assert Path(there).parent == folder / "__pycache__"
-    assert stored.run() == [12.0, 0, 1, "", "", str(stored.stored)]
+    assert before.made == [["tippe_core.callee.square", "tippe_core.caller.total"]]
+    assert Path(there).parent == before.folder / "__pycache__"
+    assert stored.run() == [12.0, 0, 1, "", "", str(stored.stored)] and stored.made == [[]]
 
 
 def test_a_callee_in_another_file_that_changed_is_noticed(stored):
@@ -186,19 +190,10 @@ def test_what_nothing_has_used_for_long_goes_once_another_folder_is_complete(tmp
 def test_looking_up_a_folder_removes_nothing_and_dates_it(stored):
     found = stored.stored
     old = aged(found.parent / f"kernels-cpython-311-generic-{16 * 'a'}", 400)
-    for complete in (False, True):
-        if complete:
-            kept.mark(found)
-        os.utime(found, (0, 0))
-        assert stored.run()[-1] == str(found)
-        assert found.stat().st_mtime > time.time() - 3600 and old.is_dir()
-
-
-def test_what_a_process_had_to_compile_is_known(package):
-    code = ("import json; from tippe_core.caller import total; from tippe_core import compiled; total({}, 3); "
-            "print(json.dumps([name.partition('(')[0] for name in compiled.made]))")  # fmt: skip
-    assert package.run(code=code) == ["tippe_core.callee.square", "tippe_core.caller.total"]
-    assert package.run(code=code) == []
+    kept.mark(found)
+    os.utime(found, (0, 0))
+    assert stored.run()[-1] == str(found)
+    assert found.stat().st_mtime > time.time() - 3600 and old.is_dir()
 
 
 def test_another_processor_has_kernels_of_its_own(stored):
@@ -234,7 +229,7 @@ def test_several_processes_at_once_lose_nothing_and_mix_nothing_up(package):
     """Each of them compiles for another type of argument, into the same list."""
     given = ("2.0", "2", "np.float32(1.5)", "True")
     begun = [package.begin(x) for x in given]
-    values = [json.loads(each.communicate()[0])[0] for each in begun]
+    values = [json.loads(each.communicate()[0].splitlines()[0])[0] for each in begun]
     assert values == [12.0, 12.0, 6.75, 3.0]
     assert package.run(code=ALL_FOUND % ", ".join(given)) == [values, 0, len(given)]
 

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,9 +16,11 @@ import pytest
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from lab_page import DRAWN, TIME, entry, put
 from serving import answers, end, served, until
+from test_operating import until_told
+from tornado.httpclient import HTTPClientError
 from visiting import free_port, go_to, texts, wait
 from watching import LOST as LOST_SERVER
-from wire import Visitor, get, run
+from wire import TOKEN, Closed, Visitor, get, run
 
 from app.server.admission import Admission
 from app.server.server import FRESH
@@ -125,28 +127,44 @@ def behind(proxy, *servers):
         end(process)
 
 
+async def comes(url, cookie):
+    """(a Visitor who asks as often as it takes, his cookie then)."""
+    while True:
+        status, headers, text = get(url, Cookie=cookie)
+        if status == 200:
+            cookie = headers.get("Set-Cookie", cookie).split(";")[0]
+            with suppress(Closed, HTTPClientError):
+                return await Visitor.enter(url, TOKEN.search(text)[1], {"Cookie": cookie}), cookie
+        await asyncio.sleep(0.1)
+
+
 @pytest.mark.served
 @pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
-def test_behind_the_proxy_a_page_goes_to_another_replica_when_its_own_stops_or_is_killed(page, tmp_path):
+def test_behind_the_proxy_a_page_goes_to_another_replica_when_its_own_stops_or_is_killed(tmp_path):
+    """A page in a browser comes back by loading its address again, as above."""
     common = {"proxy": 1, "secret": "s", "wait": False}
+
+    async def visit(url):
+        visitor, cookie = await comes(url, "")
+        mine, other = (one, two) if '"sessions": 1' in get(one.root + "/liveness")[2] else (two, one)
+        mine.process.send_signal(signal.SIGTERM)
+        await until_told(visitor)
+        visitor, cookie = await comes(url, cookie)
+        assert mine.process.wait(60) == 0 and '"sessions": 0' not in get(other.root + "/liveness")[2]
+        with served(tmp_path / "c", **common | {"port": int(mine.root.rsplit(":", 1)[1])}) as again:
+            until(lambda: answers(again.root + "/readyz"))
+            await visitor.ask("PULL-DOC-REQ", {})  # what becomes of another replica does not disturb it
+            other.process.kill()
+            with pytest.raises(Closed):
+                await visitor.receive()
+            await comes(url, cookie)
+            assert '"sessions": 0' not in get(again.root + "/liveness")[2]
+
     with served(tmp_path / "a", **common) as one, served(tmp_path / "b", **common) as two:
         until(lambda: all(answers(each.root + "/readyz") for each in (one, two)))
         with behind(tmp_path / "haproxy.cfg", one, two) as root:
-            page.goto(f"{root}/app")
-            set_spin(page, "29.5")
             assert get(f"{root}/metrics")[0] == 403
-            mine, other = (one, two) if '"sessions": 1' in get(one.root + "/liveness")[2] else (two, one)
-            mine.process.send_signal(signal.SIGTERM)
-            page.get_by_text(LOST).wait_for()
-            has_come_back(page, "29.5")
-            assert mine.process.wait(60) == 0 and '"sessions": 0' not in get(other.root + "/liveness")[2]
-            set_spin(page, "30.5")
-            with served(tmp_path / "c", **common | {"port": int(mine.root.rsplit(":", 1)[1])}) as again:
-                until(lambda: answers(again.root + "/readyz"))
-                assert page.evaluate("window.mark") == 1  # what becomes of another replica does not disturb it
-                other.process.kill()
-                page.get_by_text(LOST).wait_for()
-                has_come_back(page, "30.5")
+            run(visit(f"{root}/app"))
 
 
 # --- the page is not yet there

@@ -5,10 +5,15 @@ import threading
 from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pytest
+import visitors
+from components import alone as alone
 from lab_page import come, put
 from serving import served
 from visiting import wait
 from watching import LOST
+from wire import run
+
+from app.share.parts import Embed
 
 pytestmark = pytest.mark.served
 
@@ -127,8 +132,14 @@ def test_the_lesson_in_a_sandbox_keeps_its_height_and_prints_into_a_file(host, t
         frame.get_by_text("must have allow-same-origin").wait_for()
 
 
-def test_a_server_that_allows_no_frame_says_which_setting_does(tmp_path, chromium):
-    with served(tmp_path / "log") as server, chromium.new_context(reduced_motion="reduce") as context:
-        page = come(context.new_page(), f"{server.url}?v=4&spin=20").page
-        assert not code(page).is_visible()
-        page.get_by_text("TIPPE_FRAMES").wait_for()
+def test_a_server_that_allows_no_frame_says_which_setting_does(tmp_path, alone):
+    async def frames(url):
+        page = await visitors.come(url)
+        await page.head("share")
+        await page.until(lambda: page.visitor.find("Embed"))
+        return page.now(page.visitor.find("Embed")[0], "frames")
+
+    with served(tmp_path / "log") as server:
+        page = alone().show(Embed(code="<iframe>", frames=run(frames(server.url))))
+    page.get_by_text("TIPPE_FRAMES").wait_for()
+    assert not page.locator("textarea").is_visible()

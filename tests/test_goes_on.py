@@ -38,7 +38,7 @@ def gone_on(parts, *start, **how):
     return [sliding.until(part) for part in parts if len(part)]
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(0, 40, 3))  # of each law, and of each toy
 def test_in_parts_it_is_the_same_to_the_last_bit(seed):
     random = np.random.default_rng(seed)
     toy, mu = PRESETS[seed % len(PRESETS)], float(0.02 * 40 ** random.random())

@@ -117,14 +117,6 @@ def test_an_end_of_the_tieline_is_the_energy(visit):
     top_stands_on(visit, Constants(7.0, 10.0, E))
 
 
-def test_a_hand_that_rests_before_it_pulls_pulls_all_the_same(visit):
-    stop_at_the_start(visit)
-    outer = selected(visit)["outer"]
-    visit.drag(visit.pixel("plane", outer, 7.0), visit.pixel("plane", 0.86, 7.0), rest=700)
-    until_selected(visit, outer=0.86, K_J=7.0)
-    visit.page.mouse.up()
-
-
 # Whether the read-out is in the window, and covers neither the bead nor the tieline on display.
 CLEAR = """([ends, bead]) => {
   const box = document.querySelector(".tippe-readout").getBoundingClientRect()

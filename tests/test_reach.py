@@ -59,6 +59,11 @@ def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(chromium, serv
     check(page, "the keys")
     page.keyboard.press("Escape")
     keys.wait_for(state="hidden")
+    page.get_by_role("button", name="More", exact=True).click()
+    page.get_by_role("button", name="Accessibility", exact=True).click()
+    page.get_by_role("dialog", name="Accessibility").get_by_text("WCAG 2.2").wait_for()
+    check(page, "the statement")
+    page.keyboard.press("Escape")
     slider = page.get_by_role("slider", name="Jellett’s constant")
     slider.press("ArrowRight")  # there it belongs to the control
     assert slider.get_attribute("aria-valuetext") == "7.01 root g over R"

@@ -1,9 +1,12 @@
 """Share stays open beside the stage, and what it saves is what its link opens."""
 
 import base64
+import io
 import re
 from types import SimpleNamespace
 
+import numpy as np
+import pandas as pd
 import panel as pn
 import pytest
 from bokeh.document import Document
@@ -15,7 +18,7 @@ from app.model.lab.lab import Lab
 from app.model.runs import Run, Runs
 from app.page.page import page
 from app.page.session import Session
-from app.share.panel import Files
+from app.share.panel import Files, made
 from app.share.share import Share
 from app.widgets.download import Download
 from app.widgets.scheduling import RenderScheduler
@@ -147,6 +150,21 @@ class Beside(Runs):
         while self.begun:
             run: Run = self.begun.pop(0)[0]
             run.done(run.result())
+
+
+def test_of_three_tables_the_files_are_of_the_one_that_is_chosen(opened):
+    seen = opened("?v=4&spin=15&table=three")
+    files = seen.share._files
+    for table in ("ordinary", "rough", "ice"):
+        files._table.value = table
+        assert f"This motion, {table}" in files._of.object
+        assert {save.filename for save in files._saves.values()} == {
+            f"tippe-top-{table}.{kind}" for kind in files._saves
+        }
+        what, link, _ = files._saves["csv"]._state()
+        saved = pd.read_csv(io.BytesIO(made("csv", what, link, 1.0)), comment="#")
+        run = seen.session.lab_of.scene.motions[table].trajectory
+        assert link == files._link and np.array_equal(saved["theta (rad)"], run.theta)
 
 
 def test_two_buttons_whose_files_have_one_name_answer_both():

@@ -88,34 +88,31 @@ def line_to(server):
         line.close()
 
 
-def ask_in_vain(page):
+def ask_in_vain(page, table):
     """Clicks where no answer comes, and for the page seconds pass."""
-    page.get_by_role("radio", name="Rough").click()
+    page.get_by_role("radio", name=table).click()
     page.evaluate("skip(6000)")
 
 
-def test_a_server_that_hangs_is_said_and_what_was_set_is_done_when_it_goes_on(page, tmp_path):
-    with served(tmp_path / "log") as server:
-        page.goto(server.url)
-        page.wait_for_function(HERE)
+def test_a_server_that_hangs_is_said_a_line_that_was_cut_is_lost_and_each_time_all_that_was_set_is_there(
+    page, tmp_path
+):
+    """What was asked of the server that hangs is done when it goes on; the line is cut without a word."""
+    with served(tmp_path / "log") as server, line_to(server) as (line, url):
+        page.goto(url)
+        set_spin(page, "29.5")
         says = page.get_by_role("alert").filter(has_text=SILENT)
         os.kill(server.process.pid, signal.SIGSTOP)
         try:
-            ask_in_vain(page)
+            ask_in_vain(page, "Rough")
             says.wait_for()
         finally:
             os.kill(server.process.pid, signal.SIGCONT)
         says.wait_for(state="detached")
         page.wait_for_function("location.search.includes('rough')")
-
-
-def test_a_line_that_was_cut_without_a_word_is_said_then_lost_and_the_page_comes_back_with_what_was_set(page, tmp_path):
-    with served(tmp_path / "log") as server, line_to(server) as (line, url):
-        page.goto(url)
-        set_spin(page, "29.5")
         line.cut()
-        ask_in_vain(page)
-        page.get_by_role("alert").filter(has_text=SILENT).wait_for()
+        ask_in_vain(page, "Ice")
+        says.wait_for()
         page.evaluate("skip(25_000)")
         page.get_by_role("alert").filter(has_text=say("main.lost", "en")).wait_for()
         assert page.evaluate("window.mark") == 1  # nothing answers: there is nothing to load

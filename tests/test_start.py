@@ -17,12 +17,11 @@ from app.model.lab.lab import Lab
 from app.model.lesson.lesson import NAMES as STEP_NAMES
 from app.model.runs import Runs
 from app.model.setup import LAWS, TOYS
-from app.model.start import DEFAULTS, GIVEN, TABLES, arrives, of_toy
+from app.model.start import DEFAULTS, GIVEN, arrives, of_toy
 from app.page import page
 from app.page.session import Session
 from app.state.names import LEVELS, ROOMS, ROWS, SECTIONS
 from app.state.url_state import explorer_of, read
-from app.text import LANGUAGES
 from app.widgets import rooms
 from tippe_core import PRESETS, BareSphere, Top, TruncatedSphere
 
@@ -62,11 +61,12 @@ def test_no_input_is_kept_twice():
 # ---- a table is another one, and the start the same ----
 
 
-@pytest.mark.parametrize("toy", [TOY, PAPER])
-@pytest.mark.parametrize("given", [
-    {"given": "hand", "spin": -17.3, "tilt": 11.0}, {"given": "hand", "spin": 20.0, "tilt": 30.0, "slip": 0.4},
-    {"given": "share", "K_J": 6.1, "K_R": 9.0, "energy": 0.4}, {"given": "E", "K_J": 6.0, "K_R": 10.0, "E": 40.0},
-    {"given": "state", "theta": 0.4, "theta_dot": 0.1, "omega2": -1.0, "omega3": 8.0}])  # fmt: skip
+@pytest.mark.parametrize(("toy", "given"), [
+    (TOY, {"given": "hand", "spin": -17.3, "tilt": 11.0}),
+    (PAPER, {"given": "hand", "spin": 20.0, "tilt": 30.0, "slip": 0.4}),
+    (PAPER, {"given": "share", "K_J": 6.1, "K_R": 9.0, "energy": 0.4}),
+    (PAPER, {"given": "E", "K_J": 6.0, "K_R": 10.0, "E": 40.0}),
+    (TOY, {"given": "state", "theta": 0.4, "theta_dot": 0.1, "omega2": -1.0, "omega3": 8.0})])  # fmt: skip
 def test_rough_ordinary_rough_comes_back_to_the_last_digit(toy, given):
     lab = lab_of(Explorer(**arrives() | of_toy(toy)))
     explorer = lab.explorer
@@ -232,7 +232,7 @@ def start_of_page(session):
     return session.explorer.start
 
 
-@pytest.mark.parametrize("table", TABLES)
+@pytest.mark.parametrize("table", ["ordinary", "three"])
 def test_research_and_back_sets_nothing_and_computes_nothing(table):
     with visitor("") as (session, seen):
         session.lab_of.ask(table=table, mu=0.12)
@@ -254,9 +254,8 @@ def test_research_and_back_sets_nothing_and_computes_nothing(table):
         assert session.explorer.mu == 0.3 and not session.url_state.can_undo
 
 
-@pytest.mark.parametrize("table", ["ordinary", "rough"])
-def test_no_room_sets_anything_of_the_start_when_it_opens(table):
-    with visitor(f"?v=4&table={table}&mu_k=.12&spin=21&tilt=12") as (session, seen):
+def test_no_room_sets_anything_of_the_start_when_it_opens():
+    with visitor("?v=4&table=rough&mu_k=.12&spin=21&tilt=12") as (session, seen):
         session.url_state.commit()
         start, undo = start_of_page(session), session.url_state.can_undo
         for level in LEVELS:
@@ -287,7 +286,7 @@ STEPS = (
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("toy", "language"), [*zip(cycle((TOY, PAPER)), LANGUAGES, strict=False)])
+@pytest.mark.parametrize(("toy", "language"), [(TOY, "en"), (PAPER, "de")])
 def test_links_of_the_steps_open_the_same_and_undo_goes_back_through_the_tables(toy, language):
     with visitor(f"?lang={language}&tab=lab") as (session, seen):
         session.lab_of.ask(toy=toy)

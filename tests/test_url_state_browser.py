@@ -206,6 +206,10 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     mailed.get_by_role("button", name="Pause").click()
     follows = "Math.abs(m.location - unit * __tippe.tops('lab')[0].t) < 1e-9"
     mailed.wait_for_function(f"unit => ({spans})().every((m) => {follows})", arg=scene.scales.time)
+    mailed.wait_for_function("window.__tippe.plane?.pictures > 0")
+    mailed.evaluate("dispatchEvent(new CustomEvent('tippe:seek:lab', {detail: {t: 0.3}}))")
+    mailed.wait_for_function("Math.abs(__tippe.plane.selected.theta - __tippe.plane.selected.inner) > 0.01")
+    assert "rolls: its tieline" in mailed.evaluate("__tippe.plane.names")
     shown = mailed.evaluate("""() => Bokeh.documents.flatMap((d) => [...d._all_models.values()])
         .find((m) => m.name == "times-theta" && m.renderers).renderers
         .map(({ data_source }) => Array.from(data_source.data.theta ?? [])).find((theta) => theta.length)""")
