@@ -14,7 +14,7 @@ log = logging.getLogger("tippe")
 
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
 REPLACE = 10  # the exit code of a worker that is to be replaced
-MOST_LOST = 100  # workers that crashed or were replaced, after which the server itself must be at fault
+MOST_LOST = 10_000  # workers that crashed or were replaced, after which the server itself must be at fault
 MEGABYTE = 2**20
 
 
