@@ -27,4 +27,7 @@ def happened(motion: TableMotion) -> tuple[tuple[float, str], ...]:
 
 def first_times(motion: TableMotion) -> dict[str, float]:
     """{code: the time (s) at which it first happened}."""
-    return {code: t for t, code in reversed(happened(motion))}
+    found: dict[str, float] = {}
+    for t, code in happened(motion):
+        found.setdefault(code, t)
+    return found
