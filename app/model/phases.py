@@ -301,7 +301,7 @@ def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
     """The phases, without what is left over and SHORT: beginning with the shortest, it joins the longer of its
     neighbours that are left over too; if none is, the phase before it (or after it), if it is shorter than GAP or
     that is a passage. What rolls, slides or sinks may swing with what joins it. Like joins like except at a cut."""
-    kept, tried = _alike(found, run.cuts), set[Phase]()
+    kept, tried = _alike(found, run), set[Phase]()
     while short := [phase for phase in kept if phase.kind in LEFT_OVER and _long(phase) < SHORT and phase not in tried]:
         phase = min(short, key=_long)
         tried.add(phase)
@@ -312,19 +312,24 @@ def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
         if left_over or (beside and _long(phase) < (SHORT if passing else GAP)):
             j = max(left_over, key=lambda j: _long(kept[j])) if left_over else beside[0]
             first, last = min(i, j), max(i, j)
-            joins = Phase(kept[j].kind, kept[first].start, kept[last].end)
-            if joins.kind in ("rolls", "slides") or (joins.kind == "sinks" and _goes(run, joins[1:]) > -GOES):
-                joins = joins._replace(kind=_swings(run, joins[1:]))
-            kept = _alike([*kept[:first], joins, *kept[last + 1 :]], run.cuts)
+            joins = _judged(run, Phase(kept[j].kind, kept[first].start, kept[last].end))
+            kept = _alike([*kept[:first], joins, *kept[last + 1 :]], run)
     return tuple(kept)
 
 
-def _alike(found: list[Phase], cuts: tuple[float, ...]) -> list[Phase]:
+def _judged(run: Samples, phase: Phase) -> Phase:
+    """The phase; what rolls, slides or sinks may swing as a whole."""
+    if phase.kind in ("rolls", "slides") or (phase.kind == "sinks" and _goes(run, phase[1:]) > -GOES):
+        return phase._replace(kind=_swings(run, phase[1:]))
+    return phase
+
+
+def _alike(found: list[Phase], run: Samples) -> list[Phase]:
     """The phases; neighbours of the same kind are one."""
     joined: list[Phase] = []
     for phase in found:
-        if joined and joined[-1].kind == phase.kind and phase.start not in cuts:
-            joined[-1] = joined[-1]._replace(end=phase.end)
+        if joined and joined[-1].kind == phase.kind and phase.start not in run.cuts:
+            joined[-1] = _judged(run, joined[-1]._replace(end=phase.end))
         else:
             joined.append(phase)
     return joined
