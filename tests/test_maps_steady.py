@@ -70,7 +70,7 @@ def test_what_stands_on_its_stem_at_the_end_does_not_come_off_it_there():
     found = life(Map(law="smoothed").at(40.0, 5.7), None)
     assert np.isfinite(found.stands) and found.end > 170 and np.isnan(found.leaves) and np.isnan(found.rolls)
     said = of_life(SimpleNamespace(life=found, hysteresis=None))
-    assert "is on it still after 60 s" in said and " last at" not in said and "rolls" not in said
+    assert "is still on it after 60 s" in said and " last at" not in said and "rolls" not in said
 
 
 @pytest.mark.slow

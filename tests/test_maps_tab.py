@@ -183,8 +183,8 @@ def test_pieces_are_shown_while_it_is_drawn(tab, monkeypatch):
     monkeypatch.setattr("app.tabs.maps.maps.PICTURE_EVERY", -1.0)  # every piece
     monkeypatch.setattr(Maps, "_show_part", lambda tab, run, level, share: seen.append(int((level.end != "").sum())))
     tab.settings.entries["seconds"].value = "0.3"
-    tab.settings.entries["cells"].value = "12"
-    assert len([cells for cells in seen if cells not in (3 * 3, 4 * 4, 12 * 12)]) > 3
+    tab.settings.entries["cells"].value = "24"
+    assert len([cells for cells in seen if cells not in (3 * 3, 8 * 8, 24 * 24)]) > 3
 
 
 def test_the_map_is_in_the_address_and_undone():

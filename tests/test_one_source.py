@@ -12,7 +12,7 @@ from cases import PAPER, TOPS
 from high_precision import Curve, mp, mpf
 
 from tippe_core import Constants, State
-from tippe_core.compiled import compiled
+from tippe_core.compiled import share_called
 from tippe_core.paper import curve, differences, equations, wells
 from tippe_core.paper.constants import EXACT, Exact, exact_top
 from tippe_core.paper.poles import Floats, K_J_of_pole, bracket_near, pole_offsets
@@ -71,7 +71,7 @@ def by_all_four(module, name):
     array = function(*(np.array([x, x]) for x in given), PAPER)
     with localcontext(EXACT):
         exact = function(*map(Decimal, given), exact_top(PAPER))
-    _ = compiled(flat).dispatcher  # only the first kernel makes numba register the shared functions
+    share_called(function)
     kernel = numba.njit(error_model="numpy")(function)(*given, PAPER.numbers)  # not compiled(), which would store it
     first = tuple(x[0] for x in array) if isinstance(array, tuple) else array[0]
     return [flat(x) for x in (function(*given, PAPER), first, exact, kernel)]

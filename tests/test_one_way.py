@@ -38,6 +38,7 @@ from app.tabs.lab.rolling import Rolling
 from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
+from app.widgets.cards import Hidden
 from app.widgets.controls import FACES, Controls
 from app.widgets.guide import Guide
 from app.widgets.portraits import Force, Potential, Ring
@@ -220,6 +221,8 @@ def seen(view):
         elif isinstance(thing, param.Parameterized) and hasattr(thing, "jslink"):  # a part of the page
             for name in ("objects", "object", "value", "label", "options", "visible", "styles", "state"):
                 part = getattr(thing, name, None)
+                if isinstance(thing, Hidden) and not thing.visible:
+                    continue  # what it has is made when it is first shown
                 if isinstance(part, list) and name == "objects":
                     look(part, f"{path}/{name}")
                 elif name in thing.param and not isinstance(

@@ -98,7 +98,7 @@ def _numba() -> Numba:
 def _dispatcher(function: Callable[..., Any]) -> Numba:
     if why_not():
         return function
-    _share_called(function)
+    share_called(function)
     dispatcher = _numba().njit(nogil=True, error_model="numpy")(function)
     with suppress(ImportError, AttributeError):  # private parts; without them each process compiles the kernels anew
         if kept.folder() is not None and Path(function.__code__.co_filename).is_file():
@@ -107,7 +107,7 @@ def _dispatcher(function: Callable[..., Any]) -> Numba:
     return dispatcher
 
 
-def _share_called(function: Callable[..., Any]) -> None:
+def share_called(function: Callable[..., Any]) -> None:
     """Lets numba compile the functions that this one calls, by their names or as attributes of modules."""
     called, names = function.__globals__, function.__code__.co_names
     modules = [vars(called[name]) for name in names if isinstance(called.get(name), ModuleType)]
@@ -116,7 +116,7 @@ def _share_called(function: Callable[..., Any]) -> None:
         if ours and found not in _shared:
             _shared.add(found)
             importlib.import_module("numba.extending").register_jitable(error_model="numpy")(found)
-            _share_called(found)
+            share_called(found)
 
 
 def _once(dispatcher: Numba) -> None:

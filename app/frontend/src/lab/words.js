@@ -21,7 +21,7 @@ export function wordsOf(texts, ask, goBack) {
       const { table, state, isOpen, run, before } = scene, wanted = NEXT[table];
       to = wanted === "research" && (isOpen || !texts.nexts[wanted]) ? OPEN[table] : wanted;
       next.hidden = !to;
-      if (to) next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[to]} →`));
+      if (to) next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[to]}\u00a0→`));
       const isLifted = table === "three" || (run?.events ?? []).some(([, code]) => code === "over");
       lesson.textContent = state.caught ? texts.more.caught : (isLifted && texts.whys[table]) || "";
       written = "";
