@@ -2,15 +2,13 @@
 
 import html
 
-import panel as pn
-
 from app.share import export, glb, programs, saved_runs
 from app.share.parts import Embed, Film, Paper, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.share.saved_runs import Shown
 from app.state.names import FRAME, VERSION, VERSION_NAME
 from app.text import listed, say
-from app.widgets.cards import px, words
+from app.widgets.cards import column, px, words
 from app.widgets.copy import Copy
 from app.widgets.download import Download
 from app.widgets.forms import Choice, Fold
@@ -78,7 +76,7 @@ class Files:
         rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [self._paper]}
         self._python = Copy(label="Python", rows=13, button=listed("share.copy"), sizing_mode="stretch_width",
                             margin=(4, 0))  # fmt: skip
-        figures = pn.Column(*self._figures(), sizing_mode="stretch_width", margin=0)
+        figures = column(*self._figures())
         self._more = Fold(say("share.panel.figures"), figures, margin=(8, 0))
         self.view = [
             self._of, self._table,
@@ -165,7 +163,7 @@ def _says(text):
 
 
 def _row(says, *buttons):
-    return pn.Column(says, *buttons, sizing_mode="stretch_width", margin=0, stylesheets=[ROW])
+    return column(says, *buttons, stylesheets=[ROW])
 
 
 def plain(lines):

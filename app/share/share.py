@@ -3,7 +3,6 @@
 import html
 from urllib.parse import parse_qs, urlsplit
 
-import panel as pn
 import param
 import segno
 
@@ -14,7 +13,7 @@ from app.share.parts import Address, Clock, ShareHead
 from app.state.names import is_local
 from app.state.url_state import shared
 from app.text import say
-from app.widgets.cards import words
+from app.widgets.cards import column, words
 from app.widgets.rest import Rest
 
 # It covers the cards beside the stage, never the stage itself; as wide as those are in the Lab.
@@ -61,7 +60,7 @@ class Share(param.Parameterized):
         self.url_state.add(playing)
         self.address = Address(search=self.url_state.query, where=self.url_state.where, width=0, height=0, margin=0)
         at_once(self.address, "held", "gesture", "undone", "redone", "page", "visited")
-        self._notice = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._notice = column()
         self._rest = Rest(self._rests, lambda: self.address.held)
         self.url_state.param.watch(lambda event: self._rest.moved(), "changed")
         self.url_state.param.watch(self._say, "sentence")
@@ -70,7 +69,7 @@ class Share(param.Parameterized):
         self.address.param.watch(lambda event: self.url_state.undo(), "undone")
         self.address.param.watch(lambda event: self.url_state.redo(), "redone")
         self.address.param.watch(lambda event: self.url_state.visit(event.new[1]), "visited")
-        self.panel = pn.Column(sizing_mode=None, margin=0, visible=False, stylesheets=[PLACE])
+        self.panel = column(sizing_mode=None, visible=False, stylesheets=[PLACE])
         self.main = [self._notice, self.address, self.panel]
         self._kept()
 
@@ -152,8 +151,7 @@ class Share(param.Parameterized):
         at_once(self._head, "closed")
         self._head.param.watch(lambda event: self.close(), "closed")
         self._files = Files(self._runs, self._playing, self._body, self._sheet, self._mail)
-        self._saves = pn.Column(*self._files.view, sizing_mode="stretch_width", margin=0, visible=False,
-                                stylesheets=[UNROLLED])  # fmt: skip
+        self._saves = column(*self._files.view, visible=False, stylesheets=[UNROLLED])
         self.panel.objects = [self._head, self._saves]
 
 

@@ -29,7 +29,7 @@ CLICKS, DRAG = ("tap", "doubletap"), ("panstart", "pan", "panend")
 well."""
 TICKS = Path(__file__).parents[1].joinpath("ticks.js").read_text(encoding="utf-8")
 GRID, PAPER = "#e7ebef", "#ffffff"
-LETTERS = {f"{part}_text_{name}": value for part in ("major_label", "axis_label")
+TYPE = {f"{part}_text_{name}": value for part in ("major_label", "axis_label")
            for name, value in (("color", INK), ("font_size", "12px"), ("font", FAMILY))}  # fmt: skip
 
 
@@ -55,7 +55,7 @@ def plain(label="", height=None, **options):
     all_labels = AllLabels()  # the same object for both
     for axis in fig.axis:
         axis.update(axis_line_color=FAINT, major_tick_line_color=FAINT, minor_tick_line_color=None, major_tick_in=0,
-                    major_label_policy=all_labels, axis_label_text_font_style="normal", **LETTERS)  # fmt: skip
+                    major_label_policy=all_labels, axis_label_text_font_style="normal", **TYPE)  # fmt: skip
         if decimal_point() != "." and isinstance(axis.formatter, BasicTickFormatter):
             axis.formatter = in_language(axis.formatter)
     if label or fig.name:
