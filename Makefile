@@ -78,7 +78,7 @@ lock:
 		--output-file locks/lowest.txt pyproject.toml
 
 # Slow results that are kept in the repository, each with a hash of the code that it comes from: those of the slow oracles,
-# the tops on film, docs/validation.md, the mutants (many hours; can be stopped and continued), and the basins of the
+# the tops on film, docs/validation.md, the mutants (hours; can be stopped and continued), and the basins of the
 # paper's top (hours too).
 proof: $(VENV)/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
@@ -86,7 +86,8 @@ proof: $(VENV)/test kernels
 	$(BIN)/python tests/story_checker.py 1000 $$(date +%s)
 	$(BIN)/python tests/validation.py
 	$(BIN)/python tests/basins.py
-	$(BIN)/python tests/mutants.py --check
+	$(BIN)/python tests/reach.py
+	$(BIN)/python tests/mutants.py
 	$(BIN)/python tests/ages.py
 
 # Writes docs/validation.md from the results of the tests, with the whole accuracy map: about ten minutes.

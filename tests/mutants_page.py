@@ -83,10 +83,18 @@ def page(lines, chosen):
     yield "# Mutants"
     yield ""
     yield ("Would the tests notice a wrong formula? `make proof` changes one sign and one factor (times for divided "
-           "by, a power by one) in each statement that computes something, one at a time, and runs the tests until "
-           "one fails. Iterations and tests of convergence are left out, because a wrong step there is slow or "
-           "refused. `tests/data/mutants.jsonl` has each change with its date, its commit, a hash of the function and "
-           "the test that noticed it.")  # fmt: skip
+           "by, a power by one) in statements that compute something: in all of the functions that have an equation of "
+           "the paper ([where](equations.md)), and in a quarter of the others of the core and the model, drawn by "
+           "their text. Each change is tried in a process of its own, with the tests that run through the function, "
+           "the quickest first, until one fails; kernels run as Python. Iterations and tests of convergence are left "
+           "out, because a wrong step there is slow or refused. `tests/data/mutants.jsonl` has each change with its "
+           "date, its commit, a hash of the function and the test that noticed it; `tests/data/reach.json` has the "
+           "tests of each function.")  # fmt: skip
+    yield ""
+    yield ("Two libraries were looked at. mutmut wraps each function in a switch between its variants, through which "
+           "the innermost loops would go, and has no sample by statement. cosmic-ray runs one command for all tests, "
+           "in a new interpreter for each change, whose imports alone take seconds. Both keep their results by file "
+           "and number, so that they do not outlive a move.")  # fmt: skip
     yield ""
     when = dates([line for line, _ in now])
     yield (f"**Of the {len(lines):,} changes that were tried, {len(now):,} are of today’s code, {when}, and the tests "
@@ -99,7 +107,7 @@ def page(lines, chosen):
     yield ""
     for line, (function, file) in now:
         if not line["by"]:
-            open_ = "the slow tests have not been run" if line["rest"] else "not explained yet"
+            open_ = "not all tests were run" if line["rest"] else "not explained yet"
             reason = EXPLAINED.get((line["file"], line["after"]), open_)
             yield (f"- `{function}` of `{file}`: {reason}\n\n  ```text\n  {line['before']}\n  {line['after']}\n"
                    "  ```")  # fmt: skip

@@ -28,7 +28,7 @@ def changes(statement):
             nodes.remove(node.slice)  # an index is not a factor
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("range", "TopError", "len"):
             nodes = [n for n in nodes if n not in node.args]
-        if isinstance(node, ast.BinOp):
+        if isinstance(node, ast.BinOp) and not any(map(is_text, (node.left, node.right))):
             other = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}.get(type(node.op))
             if other:
                 kind = "sign" if other in (ast.Add, ast.Sub) else "factor"
@@ -37,3 +37,8 @@ def changes(statement):
                 yield statement, "factor", node.right, "value", node.right.value + 1
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             yield statement, "sign", node, "op", ast.UAdd()
+
+
+def is_text(node):
+    """A text or a list, that is no number."""
+    return isinstance(node, ast.JoinedStr | ast.List | ast.Tuple) or isinstance(getattr(node, "value", None), str)
