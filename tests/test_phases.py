@@ -192,5 +192,5 @@ def test_it_tells_of_a_link_what_the_page_says(language):
     ]
     assert ordinary["phases"][-1]["to"] == ordinary["samples"]["t"][-1]
     assert {len(values) for values in ordinary["samples"].values()} == {len(ordinary["samples"]["t"])}
-    assert ordinary["kept"]["jellett"]["turning"].endswith(written(4.81, "", language))
+    assert ordinary["kept"]["jellett"]["turning"].endswith(written(4.82, "", language))
     assert told["tables"]["rough"]["kept"]["energy"]["kind"] == "gripped"
