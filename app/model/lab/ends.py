@@ -131,13 +131,17 @@ def _codes(starts: list[Setup], look: Callable[[float], object]) -> tuple[str, .
         if not len(left):
             break
         states = State(**{name: values[left] for name, values in zip(States._fields, last, strict=True)})  # type: ignore[arg-type]
-        more = slides(state=states, t_end=LATER / unit, progress=lambda _, share=t / LIFE: look((1 + share) / 2))
+        more = slides(state=states, t_end=LATER / unit, progress=partial(_at_most, look, float(t / LIFE)))
         for values, now in zip(last, more.state_end, strict=True):
             values[left] = now
         now = np.array(codes_of(Row(more.theta_end[:, None], more.end[:, None])))
         codes[left] = np.where(now == "refused", codes[left], now)
         left = left[np.isin(now, UNDECIDED) & (more.end != "rolling") & _may_stand(start.top, last)[left]]
     return tuple(codes.tolist())
+
+
+def _at_most(look: Callable[[float], object], share: float, done: float) -> None:
+    look((1 + share) / 2)
 
 
 def _may_stand(top: Top, last: list[Array]) -> Bools:
