@@ -52,7 +52,7 @@ CASES = (
 LIVES = (
     ("cone", "spin=3.8&tilt=15.6"), ("paper", "spin=37&tilt=61.7"), ("paper", "spin=27.5&tilt=51.8"),
     ("hollow", "spin=35.5&tilt=65.2"), ("Leine", "spin=47.2&tilt=90"), ("Leine", "spin=-30.9&tilt=90"),
-    ("Top S", "spin=-40.9&tilt=136.6&mu_k=1&patch=.01"),
+    ("Top S", "spin=-40.9&tilt=136.6&mu_k=1&patch=.01"), ("Top S", "spin=42.956&tilt=10.21&mu_k=.187"),
 )  # fmt: skip
 """(preset, start) of which something false was said before; on all tables. LIVES take seconds each."""
 STEMLESS = "Top S", "loaded", "ball"

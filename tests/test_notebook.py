@@ -25,7 +25,10 @@ def test_the_example_runs():
     # the paper's top at K_J = 7 on mu_s = 0.5 turns at 0.3839 and 0.7754 rad
     assert said[0] == "(22.0, 44.4)"
     assert said[2].startswith("it ends at 178 degrees")
-    assert len(said[3].splitlines()) == 5
+    # another program, with compliant contacts, has the toy of the arrival past 90 degrees at 0.977 s
+    over = re.search(r"([\d.]+) to [\d.]+ s: It turns over\.", said[3])
+    assert float(over[1]) == pytest.approx(0.977, abs=0.01)
+    assert len(said[4].splitlines()) == 5
     views = [out.data for out in book.cells[-1].outputs if "data" in out]
     assert any("text/html" in data and "Top3D" in str(data) for data in views)
 

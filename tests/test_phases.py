@@ -83,6 +83,13 @@ def test_an_ordinary_top_that_falls_and_one_that_is_set_up():
     assert [kind for kind, *_ in rises] == ["rises", "stands-upright"]
 
 
+def test_it_falls_within_two_seconds_by_times_between_its_samples():
+    """From 10 degrees at 2.04 s to 30 at 4.02 s; the samples are beyond 30 from 4.25 s on."""
+    t = np.arange(0, 10.1, 0.25)
+    found = kinds(t, np.interp(t, [0, 2.1, 4.05, 5, 10], [3, 10, 29.9, 70, 70]), a=-2.0)
+    assert "falls" in [kind for kind, *_ in found]
+
+
 def test_a_hop_of_a_millisecond_does_not_end_a_stand():
     carried = np.where((T > 4) & (T < 4.01), "none", "ball")
     assert kinds(T, T * 0 + 3, carried=carried) == [("stands-upright", 0, 10)]
@@ -192,5 +199,5 @@ def test_it_tells_of_a_link_what_the_page_says(language):
     ]
     assert ordinary["phases"][-1]["to"] == ordinary["samples"]["t"][-1]
     assert {len(values) for values in ordinary["samples"].values()} == {len(ordinary["samples"]["t"])}
-    assert ordinary["kept"]["jellett"]["turning"].endswith(written(4.81, "", language))
+    assert ordinary["kept"]["jellett"]["turning"].endswith(written(4.82, "", language))
     assert told["tables"]["rough"]["kept"]["energy"]["kind"] == "gripped"

@@ -52,7 +52,7 @@ def while_it_turns(motion: TableMotion) -> tuple[float, float, float] | None:
     if motion.table != "ordinary" or until is None or not any(phase.kind == "over" for phase in motion.phases):
         return None
     values = motion.trajectory.jellett / motion.trajectory.top.I1
-    last = float(np.interp(until, motion.seconds, values))
+    last = float(values[motion.seconds <= until][-1])  # the touch itself changes it
     return (until, float(values[0]), last) if abs(last - values[0]) < NEARLY * abs(values[0]) else None
 
 

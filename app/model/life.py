@@ -1,6 +1,7 @@
 """The motion of a start on the ordinary table, which goes on from where it was: its first seconds, and the whole life
 of the toy, until it rolls for good and a moment longer."""
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 from threading import Lock
@@ -10,7 +11,7 @@ import numpy as np
 
 from app.model.motion import PUSHED
 from app.model.pushes import PushedSliding, with_pushes
-from app.model.runs import look
+from app.model.runs import TooLong, patience
 from app.model.setup import SECONDS, Setup
 from tippe_core import TopError, Trajectory
 from tippe_core.types import Array
@@ -22,10 +23,6 @@ MOST_ROWS = 6000
 MOST_LOOKS = 20_000  # calls of progress each time it goes on: some seconds; a toy that flips needs a hundred
 ROUNDING = 1e-9  # relative
 LONG, CATCHES = "long", "catches"  # why a motion is not computed to its end
-
-
-class _TooLong(Exception):
-    """A run takes too long, for example that of a rim that chatters."""
 
 
 class Lived(NamedTuple):
@@ -71,17 +68,9 @@ class Life:
         return Lived(moved, seconds, LONG if seconds == self._most and len(moved) == count else "")
 
     def _go_on(self, times: Array) -> None:
-        looks = iter(range(MOST_LOOKS))
-
-        def progress(reached: float) -> None:
-            look(reached)
-            if next(looks, None) is None:
-                raise _TooLong
-
         try:
-            self._sliding.until(times, progress)
-        except _TooLong:
-            pass
+            with suppress(TooLong):
+                self._sliding.until(times, patience(MOST_LOOKS))
         finally:
             self._rows = len(self._sliding.trajectory)
 

@@ -191,11 +191,14 @@ def _falls(run: Samples, stood: list[float]) -> list[Span]:
     found: list[Span] = []
     for start, least, most in starts:
         far = np.flatnonzero((t >= start) & (fallen >= most))
-        if not len(far) or t[far[0]] - start > FALL or np.any((t > start) & (t < t[far[0]]) & (fallen < least - STILL)):
+        if not len(far):
             continue
         j = int(far[0])
+        there = passes(t, fallen, most, j - 1)
+        if there - start > FALL or np.any((t > start) & (t < there) & (fallen < least - STILL)):
+            continue
         again = np.flatnonzero(fallen[j:] <= least)
-        if len(again) and t[j + again[0]] - t[j] <= AGAIN:
+        if len(again) and t[j + again[0]] - there <= AGAIN:
             continue
         turns = np.flatnonzero(np.diff(fallen[j:]) <= 0)
         begins = min([start, *(end for end in (*stood, float(t[0])) if start - SHORT < end < start)])

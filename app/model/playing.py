@@ -21,19 +21,16 @@ class Playing(param.Parameterized):
     show_momentum = param.Boolean(default=True)
     follow = param.Boolean(default=True, doc="whether the camera follows the top")
 
-    NAMES = ("time", "playing", "speed", "camera", "show_track", "show_trace", "show_com_path", "show_force",
-             "show_cone", "show_omega", "show_momentum", "follow")  # fmt: skip
-
     @property
     def chosen(self) -> dict[str, object]:
-        return {name: getattr(self, name) for name in self.NAMES}
+        return {name: value for name, value in self.param.values().items() if name != "name"}
 
 
-def together(playing: Playing, picture: param.Parameterized, names: tuple[str, ...] = Playing.NAMES) -> None:
+def together(playing: Playing, picture: param.Parameterized) -> None:
     """From now on keeps the parameters of a picture and of a Playing equal, in both directions."""
-    picture.param.update(**{name: getattr(playing, name) for name in names})
+    picture.param.update(**playing.chosen)
     for one, other in ((playing, picture), (picture, playing)):
-        one.param.watch(partial(_pass_on, other), list(names))
+        one.param.watch(partial(_pass_on, other), [*playing.chosen])
 
 
 def _pass_on(other: param.Parameterized, *events: param.parameterized.Event) -> None:

@@ -317,18 +317,15 @@ def _drift(values: Array) -> float:
 
 
 def _curves(start: Setup, moved: Trajectory, t: Array, code: Indices, lost: float) -> Array:
-    scales = start.scales
-    turns, millimetres = scales.angular_velocity / (2 * np.pi), 1e3 * scales.R
+    millimetres, height = 1e3 * start.scales.R, moved.com[:, 2]
     spin, above = moved.omega[:, 2], moved.omega[:, 1] * np.sin(moved.theta) + moved.omega[:, 2] * np.cos(moved.theta)
-    height = moved.com[:, 2]
-    energy = moved.ledger.kinetic + height
-    rows = np.column_stack([
-        moved.t * scales.time, np.degrees(moved.theta), millimetres * height, millimetres * energy,
-        millimetres * (moved.heat + lost), turns * spin, turns * above, code[: len(moved.t)],
+    values = np.column_stack([
+        np.degrees(moved.theta), millimetres * height, millimetres * (moved.ledger.kinetic + height),
+        millimetres * (moved.heat + lost), start.turns * spin, start.turns * above,
     ])  # fmt: skip
-    if len(t) > len(moved.t):  # it ended early; the last row is repeated at the end
-        rows = np.concatenate([rows, rows[-1:]])
-        rows[-1, 0], rows[-1, -1] = t[-1] * scales.time, code[-1]
+    if len(t) > len(values):  # it ended early; the last row is repeated at the end
+        values = np.concatenate([values, values[-1:]])
+    rows = np.column_stack([t * start.scales.time, values, code])
     return rows[every_other(len(rows), pushed_rows(moved))].astype(np.float32)
 
 

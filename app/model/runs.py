@@ -90,6 +90,22 @@ def look(reached: float = 0.0) -> None:
         run.look(reached)
 
 
+class TooLong(Exception):
+    """A run takes longer than anybody wants to wait, for example that of a rim that chatters."""
+
+
+def patience(most: int) -> Callable[[float], None]:
+    """A function like look() that raises TooLong after so many calls."""
+    left = iter(range(most))
+
+    def patient(reached: float) -> None:
+        look(reached)
+        if next(left, None) is None:
+            raise TooLong
+
+    return patient
+
+
 def to_session(document: Document) -> Post:
     """A function that calls another on the thread of a Bokeh document's session, for Runs. To be called on that thread;
     the function itself may be called on any.

@@ -83,6 +83,24 @@ class Window:
         v_x, v_y, v_z = motion.velocity.T
         self.v = column(v_x) * self.e1 + column(v_y) * self.y + column(v_z) * Z
         self.weight = np.broadcast_to(-Z, self.v.shape)
+        self._shared()
+
+    def _shared(self) -> None:
+        """What several equations need."""
+        self.L_dot, self.v_dot, self.omega_dot = self.d(self.L), self.d(self.v), self.d(self._turn)
+        self.r_dot, self.w3_dot = self.d(self.r), self.d(self.w3)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            # theta itself changes abruptly near a pole, cos(theta) does not
+            self.theta_dot = -self.d(self.axis[:, 2]) / self.s
+            self.theta_double_dot = (self.d(self.s * self.w1) - self.c * self.w1**2) / self.s
+        self.r3 = dot(self.r, self.axis)
+        beside = self.r - column(self.r3) * self.axis
+        self.r_across = np.sqrt(dot(beside, beside))
+        self.lean = dot(self.omega, np.cross(self.axis, Z))  # omega . (3 x z) = -sin(theta) theta_dot
+        self.sense = np.where(self.w1 < 0, -1.0, 1.0)
+        # R -> 0: the same body with a pointed peg, at the same tilts; derivatives at R = 0
+        self.L3_pointed, self.L3_slope = self._L3(0.0).real, self._L3(STEP * 1j).imag / STEP  # L_3 and dL_3/dR
+        self.Lz_pointed = self.a * (self.L3_slope - self.L3_slope[0])  # by (13), minus its value at the first tilt
 
     def d(self, x: Long) -> Long:
         return self._matrix @ x
@@ -91,52 +109,6 @@ class Window:
         """Components along 1', y, z."""
         return np.column_stack([dot(x, self.e1), dot(x, self.y), x[:, 2]])
 
-    # ---- what several equations need ----
-
-    @cached_property
-    def L_dot(self) -> Long:
-        return self.d(self.L)
-
-    @cached_property
-    def v_dot(self) -> Long:
-        return self.d(self.v)
-
-    @cached_property
-    def omega_dot(self) -> Long:
-        return self.d(self._turn)
-
-    @cached_property
-    def r_dot(self) -> Long:
-        return self.d(self.r)
-
-    # theta itself changes abruptly near a pole, cos(theta) does not
-
-    @cached_property
-    def theta_dot(self) -> Long:
-        return -self.d(self.axis[:, 2]) / self.s
-
-    @cached_property
-    def theta_double_dot(self) -> Long:
-        return (self.d(self.s * self.w1) - self.c * self.w1**2) / self.s
-
-    @cached_property
-    def w3_dot(self) -> Long:
-        return self.d(self.w3)
-
-    @cached_property
-    def r3(self) -> Long:
-        return dot(self.r, self.axis)
-
-    @cached_property
-    def r_across(self) -> Long:
-        beside = self.r - column(self.r3) * self.axis
-        return np.sqrt(dot(beside, beside))
-
-    @cached_property
-    def lean(self) -> Long:
-        """omega . (3 x z), which is -sin(theta) theta_dot."""
-        return dot(self.omega, np.cross(self.axis, Z))
-
     def along(self, e: Long) -> Long:
         return dot(self.omega, e)
 
@@ -144,16 +116,10 @@ class Window:
         """f, omega2, ... of tippe_core at these tilts, from the constants alone."""
         return function(self.theta, self.top, self.constants)
 
-    @property
-    def sense(self) -> Array:
-        return np.where(self.w1 < 0, -1.0, 1.0)
-
     @cached_property
     def energy(self) -> Long:
         v = self.d(self.com)
         return (dot(self.omega, self.L) + dot(v, v)) / 2 + self.com[:, 2] - (1 - self.a)
-
-    # ---- R -> 0: the same body with a pointed peg, at the same tilts; derivatives at R = 0 ----
 
     def _L3(self, R: complex) -> Complex:
         """(25) for any R, with the spin constant K of R = 0: L_3 = I3 K/f3(R)."""
@@ -161,20 +127,6 @@ class Window:
         s2 = np.sin(self.theta) ** 2
         f3 = np.sqrt(self.I3 + R * R * s2 + self.I3 / self.I1 * (R * self.c - self.a) ** 2 + 0j)
         return self.I3 * K / f3
-
-    @cached_property
-    def L3_pointed(self) -> Long:
-        return self._L3(0.0).real
-
-    @cached_property
-    def L3_slope(self) -> Long:
-        """dL_3/dR at R = 0."""
-        return self._L3(STEP * 1j).imag / STEP
-
-    @cached_property
-    def Lz_pointed(self) -> Long:
-        """L_z by (13) as R -> 0, minus its value at the first of these tilts."""
-        return self.a * (self.L3_slope - self.L3_slope[0])
 
 
 def resolved(motion: Trajectory) -> bool:
@@ -213,12 +165,4 @@ def glided(scene: Scene) -> list[Window]:
 
 def _from_zero(series: Rolling | Gliding) -> Run:
     """A Rolling or Gliding as a function of the time since its start; the first of the given times is its start."""
-
-    def run(times: Array) -> Trajectory:
-        motion = series(np.concatenate([[0.0], times]))
-        rows = {name: getattr(motion, name)[1:] for name in (
-            "t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "slip", "force", "regime", "velocity",
-            "heat")}  # fmt: skip
-        return type(motion)(top=motion.top, **rows)
-
-    return run
+    return lambda times: series(np.concatenate([[0.0], times]))[1:]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.model.region import between
 from tippe_core import (
     PRESETS,
     Constants,
@@ -45,8 +46,7 @@ def region(name: str, top: Top, K_R: float, mu_s: float, count: int = TIELINES) 
     pole = pole_constants(top, K_R)[0]
     part = (np.arange(count) + 0.5) / count
     lift, slip = lift_off_and_slip_tielines(top, part * pole, K_R, mu_s)
-    share = (1 - np.cos(np.linspace(0, np.pi, POINTS))) / 2
-    theta = lift.theta_inner[:, None] + (lift.theta_outer - lift.theta_inner)[:, None] * share
+    theta = between(lift.theta_inner, lift.theta_outer, POINTS)
     limited = np.isfinite(lift.E)
     rows = Constants((part * pole)[:, None], K_R, np.where(limited, lift.E, lift.E_steady)[:, None])
     height = np.maximum(f1_squared(theta, top) * f(theta, top, rows), 0) / (K_R**2 or 1)

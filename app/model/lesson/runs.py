@@ -18,7 +18,7 @@ from app.model.regimes import OF_CORE
 from app.model.run import TableMotion, motion_on, on, watched
 from app.model.scene import Scene
 from app.model.setup import TOYS, Setup, start_of
-from tippe_core import Constants, SmoothedCoulomb, State, Top, Trajectory, omega3, roll, slide
+from tippe_core import Constants, SmoothedCoulomb, State, Trajectory, omega3, roll, slide
 from tippe_core.types import Array, Indices
 
 SMALL_PATCH = 0.1  # mm: of a hard toy
@@ -56,7 +56,6 @@ class Proof:
     start: its Constants; spin: its spin at the start.
     """
 
-    top: Top
     start: Constants
     spin: float
     jellett: float
@@ -65,7 +64,7 @@ class Proof:
 
     def at(self, theta: Array) -> Array:
         """The spin about its own axis that Routh's constant requires at these tilts, rev/s."""
-        return self.setup.turns * omega3(theta, self.top, self.start)
+        return self.setup.turns * omega3(theta, self.setup.top, self.start)
 
 
 @lru_cache(1)
@@ -79,7 +78,7 @@ def proof() -> Proof:
     jellett = -top.I1 / top.I3 * float(start.K_J) / (1 + top.a)
     setup = Setup(top=top, scales=preset.shape.scales, shape=None, spin=turns * omega,
                   tilt=float(np.degrees(THROWN_TILT)), mu=MU, mu_s=MU, stem=False, seconds=HEAD_SECONDS)  # fmt: skip
-    return Proof(top=top, start=start, spin=turns * omega, jellett=turns * jellett,
+    return Proof(start=start, spin=turns * omega, jellett=turns * jellett,
                  routh=turns * float(omega3(np.pi, top, start)), setup=setup)  # fmt: skip
 
 
@@ -119,7 +118,7 @@ def slipped() -> Trajectory:
     """The top of the proof with slipping: with an ordinary friction of 0.3 it turns over."""
     found = proof()
     state = State(THROWN_TILT, 0.0, 0.0, found.spin / found.setup.turns)
-    return slide(found.top, state, LAW, np.linspace(0.0, 400.0, 4001))
+    return slide(found.setup.top, state, LAW, np.linspace(0.0, 400.0, 4001))
 
 
 def on_ball(motion: TableMotion) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.model.maps.maps import Map
 from app.model.maps.solving import Level
+from app.model.maps.steady import C_J
 from tippe_core import TopError, strongest_friction, thresholds
 from tippe_core.paper import equations as eq
 from tippe_core.types import Array, Bools
@@ -51,8 +52,7 @@ def _excess(asked: Map, x: float, y: float) -> dict[str, float]:
     except TopError:
         return none
     top, state, limits = cell.top, cell.state, _limits(cell.top)
-    C_J = eq.C_J(np.cos(state.theta), np.sin(state.theta), 0.0, state.omega3, top)
-    launch = abs(C_J / eq.C_J(1.0, 0.0, 0.0, 1.0, top))
+    launch = abs(C_J(top, state) / eq.C_J(1.0, 0.0, 0.0, 1.0, top))
     found = {"stands": launch - limits.launch if limits.inverted.stable == "above" else np.nan,
              "leaves": launch - limits.upright.spin if limits.upright.stable == "below" else np.nan}  # fmt: skip
     mu = cell.friction.law.mu if asked.law != "viscous" else np.nan  # viscous friction has no upper bound

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from scipy.stats import linregress
 
 from app.model.maps.maps import LAWS, Cell, Map
 from app.model.maps.steady import fixed, launch
@@ -176,8 +177,5 @@ def _power(own: Map, law: str, quantity: str, x: dict[str, float], look: Progres
     count = int(passed.sum())
     if count < 3:
         return Power(law, quantity, np.nan, np.nan, count)
-    X, Y = np.log(np.array(values)[passed]), np.log(many.time_90[passed])
-    X = X - X.mean()
-    power = X @ Y / (X @ X)
-    left = Y - Y.mean() - power * X
-    return Power(law, quantity, float(power), float(np.sqrt(left @ left / (count - 2) / (X @ X))), count)
+    line = linregress(np.log(np.array(values)[passed]), np.log(many.time_90[passed]))
+    return Power(law, quantity, float(line.slope), float(line.stderr), count)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from app.model.maps.maps import OF_BODY, QUANTITIES, Cell, Map
 from app.model.motion import Progress
 from app.model.phases import phases, samples
-from tippe_core import States, Top, slide, slide_many, steady_states
+from tippe_core import State, States, Top, slide, slide_many, steady_states
 from tippe_core.paper import equations as eq
 from tippe_core.types import Array
 
@@ -101,9 +101,12 @@ def fixed(asked: Map, place: tuple[float, float]) -> Map:
 
 def launch(cell: Cell) -> float:
     """C_J of a start for each rev/s of its spin."""
-    top, theta = cell.top, cell.state.theta
-    unit = 2 * np.pi / cell.scales.angular_velocity
-    return float(eq.C_J(np.cos(theta), np.sin(theta), 0.0, unit, top))
+    return C_J(cell.top, State(cell.state.theta, 0.0, 0.0, 2 * np.pi / cell.scales.angular_velocity))
+
+
+def C_J(top: Top, state: State | States) -> float:
+    """Of a state of a top."""
+    return float(eq.C_J(np.cos(state.theta), np.sin(state.theta), state.omega2, state.omega3, top))
 
 
 def steady_lines(top: Top, per_spin: float, low: float, high: float) -> tuple[Line, ...]:
@@ -176,15 +179,10 @@ def _sweep(own: Map, tilt: float, spins: Array, look: Progress | None) -> tuple[
 
 def _brought(state: States, cell: Cell) -> States | None:
     """A state with its velocities scaled to the C_J of a cell's start."""
-    top = cell.top
-
-    def C_J(theta: Array, omega2: Array, omega3: Array) -> float:
-        return float(eq.C_J(np.cos(theta), np.sin(theta), omega2, omega3, top))
-
-    now = C_J(state.theta, state.omega2, state.omega3)
+    now = C_J(cell.top, state)
     if now == 0.0:
         return None
-    by = C_J(np.asarray(cell.state.theta), np.asarray(0.0), np.asarray(cell.state.omega3)) / now
+    by = C_J(cell.top, cell.state) / now
     names = ("theta_dot", "omega2", "omega3", "vx", "vy")
     return state._replace(**{name: by * getattr(state, name) for name in names})
 

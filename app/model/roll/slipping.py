@@ -5,15 +5,14 @@ A rolling motion stays on its tieline in the (K_J, theta) plane for ever. When t
 way: each row is the mean over one nod.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from app.model.runs import look
+from app.model.runs import TooLong, patience
 from app.model.scene import Scene
-from tippe_core import Contensou, State, Top, TopError, Trajectory, omega2, omega3, slide
+from tippe_core import Contensou, State, Top, TopError, omega2, omega3, slide
 from tippe_core.types import Array, Indices
 
 MU, PATCH = 0.3, 0.008  # for wood that slides on a table; PATCH is the Hertzian contact radius, in R, for a wooden toy
@@ -64,29 +63,12 @@ def at_the_end(scene: Scene) -> State | None:
     return State(theta, 0.0, w2, w3, vx=w2 * (c - top.a) - w3 * s, vy=0.0)
 
 
-class TooLong(Exception):
-    """The run takes longer than the picture is worth."""
-
-
-def _patient() -> Callable[[float], None]:
-    """A progress function for slide() that stops it after MOST_LOOKS calls, or with the computation of which it is a
-    part."""
-    left = iter(range(MOST_LOOKS))
-
-    def patient(reached: float) -> None:
-        if next(left, None) is None:
-            raise TooLong
-        look(reached)
-
-    return patient
-
-
 @lru_cache(maxsize=8)
 def _slipping(top: Top, state: State, mu: float, touch: float | None, period: float) -> Slipping | None:
     times = np.linspace(0, NODS * period, NODS * SAMPLES + 1)
     try:
         # the motion of a whole sphere, so that it can be followed beyond the tilt at which the stem would touch
-        motion = slide(top, state, Contensou(mu, PATCH), times, rtol=RTOL, progress=_patient())
+        motion = slide(top, state, Contensou(mu, PATCH), times, rtol=RTOL, progress=patience(MOST_LOOKS))
     except (TopError, TooLong):
         return None
     if len(motion.t) < 2 * SAMPLES:
@@ -98,7 +80,7 @@ def _slipping(top: Top, state: State, mu: float, touch: float | None, period: fl
     low, high = np.minimum.reduceat(motion.theta, begins), np.maximum.reduceat(motion.theta, begins)
     nods = np.flatnonzero(high - low > STILL)
     last = int(nods[-1]) + 1 if len(nods) else 0
-    rolls = last < len(begins) - 1 and motion.regime[begins[last]] != "air" and not _ended(motion, times)
+    rolls = last < len(begins) - 1 and motion.regime[begins[last]] != "air" and len(motion.t) == len(times)
     count = last + 1 if rolls else len(begins)
     first = state.theta, motion.jellett[0] / top.I1, motion.routh[0]
     theta, K_J, K_R = (np.append(start, mean[:count]) for start, mean in zip(first, means, strict=True))
@@ -116,7 +98,3 @@ def _nods(theta: Array) -> Indices:
     steps = np.diff(theta)
     tops = np.flatnonzero((steps[:-1] > 0) & (steps[1:] <= 0)) + 1
     return np.append(0, tops) if len(tops) > 2 else np.arange(0, len(theta) - SAMPLES, SAMPLES)
-
-
-def _ended(motion: Trajectory, times: Array) -> bool:
-    return len(motion.t) < len(times)
