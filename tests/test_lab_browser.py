@@ -121,10 +121,10 @@ DOWN = "page => page.scrollTo(0, page.scrollHeight)"
 
 
 def test_on_a_german_phone_nothing_covers_what_is_said_and_all_can_be_changed(chromium, server):
-    phone = chromium.new_context(viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True)
+    phone = chromium.new_context(viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True,
+                                 reduced_motion="reduce")  # fmt: skip
     page = come(phone.new_page(), f"{server}?v=2&tab=lab&lang=de").page
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
-    page.get_by_role("button", name="Anhalten").click()
     for other in (".paces", ".starts"):
         longest = "Kippt auf die Seite · 140° · jetzt 1/16 Tempo"
         assert not page.locator(".lab").evaluate(COVERS, [".pill", other, longest]), other

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from axe import DARK_LARGE, check
+from axe import DARK_LARGE, LIGHT, LOOK, check
 from visiting import Visit
 
 from app.text import listed
@@ -73,6 +73,7 @@ def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(chromium, serv
     page.get_by_role("button", name="Share").click()
     page.locator("svg:has(title:text-is('QR code of the link'))").wait_for()
     check(page, "Share", DARK_LARGE)
+    page.evaluate(LOOK, LIGHT)
     page.keyboard.press("Escape")
     for size in ({"width": 1400, "height": 900}, {"width": 390, "height": 844}):
         page.set_viewport_size(size)
@@ -97,6 +98,7 @@ def the_tour(page, width):
         ), (width, i, box, shown)  # fmt: skip
         if i == 1 and width > 1000:
             check(page, "the tour", DARK_LARGE)
+            page.evaluate(LOOK, LIGHT)
         if i < 5:
             page.get_by_role("button", name="Next", exact=True).click()
     page.keyboard.press("Escape")
