@@ -87,7 +87,8 @@ def test_the_rest_comes_even_where_it_does_not(server, chromium, lost, page_erro
 
 @pytest.mark.served
 def test_it_moves_before_bokeh_comes_and_the_session_takes_over_what_a_hand_made_of_it(server, chromium):
-    page, order, held = chromium.new_page(viewport={"width": 1400, "height": 900}), [], []
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="no-preference")
+    order, held = [], []
     page.on("request", lambda request: order.append(("asked", request.resource_type, request.url)))
     page.on("requestfinished", lambda request: order.append(("came", request.resource_type, request.url)))
     page.route("**/bokeh.min.js*", lambda route: held.append(route))

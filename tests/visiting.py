@@ -165,7 +165,7 @@ class Contexts:
     """The browser's contexts, emptied when they are closed and used again: a new one takes a second of a processor.
 
     Three-dimensional pictures are drawn coarsely in them, unless the test names a `device_scale_factor` of its own, and
-    seldom, where anything moves by itself.
+    seldom, if the test wants motion (`reduced_motion="no-preference"`).
     """
 
     def __init__(self, browser):
@@ -179,7 +179,7 @@ class Contexts:
         context = self._make(**like)
         if "device_scale_factor" not in like:
             context.add_init_script(COARSE)
-        if like.get("reduced_motion") != "reduce":
+        if like.get("reduced_motion") == "no-preference":
             context.add_init_script(FEW_FRAMES)
         keeper = context.new_page()  # without any page, the process that draws would end
         storage = context.new_cdp_session(keeper)
