@@ -33,10 +33,8 @@ def contrast(page):
 
 
 def check(page, where, look=LIGHT):
-    """axe-core finds nothing in this look; then the page is in its usual one again."""
+    """axe-core finds nothing in this look, in which the page stays: another one draws all figures again."""
     page.wait_for_function("window.Bokeh?.documents?.[0]?.is_idle")
     page.evaluate(LOOK, look)
     found = violations(page)
     assert found == [], (where, found)
-    if look != LIGHT:
-        page.evaluate(LOOK, LIGHT)

@@ -1,7 +1,8 @@
-"""axe-core in every room on a phone. On a large screen the tests of each room ask it, in the look that they choose."""
+"""axe-core itself, and in every room on a phone. On a large screen the tests of each room ask it, in the look that they
+choose; test_lab_browser.py asks it on a phone."""
 
 import pytest
-from axe import DARK, LIGHT, LOOK, contrast, violations
+from axe import contrast, violations
 from visiting import go_to
 
 pytestmark = pytest.mark.served
@@ -54,21 +55,4 @@ def test_axe_finds_nothing_in_any_room_on_a_phone(chromium, server):
     for name in ON_A_PHONE:
         open_room(page, name)
         assert violations(page, leaves_out=["color-contrast"]) == [], name
-    page.context.close()
-
-
-def test_axe_finds_nothing_on_a_phone(chromium, server):
-    page = opened_on_a_phone(chromium, server)
-    page.set_viewport_size({"width": 390, "height": 1600})  # nothing is half under the dock, which a scroll would free
-    assert violations(page) == [], "the lab"
-    page.get_by_role("button", name="More", exact=True).click()
-    assert violations(page) == [], "the menu"
-    open_room(page, "Learn")
-    for place in (4, 6):  # the two arms in place of the top; the question about one's own
-        page.locator(".crumbs button").nth(place).click()
-        page.locator(".option:visible").first.wait_for()
-        assert violations(page) == [], place
-        page.evaluate(LOOK, DARK)
-        assert contrast(page) == [], place
-        page.evaluate(LOOK, LIGHT)
     page.context.close()

@@ -113,7 +113,7 @@ def test_what_rolls_is_tippe_cores(visit):
 
 
 def test_research_and_back_is_the_same_canvas_whose_time_goes_on_and_sends_nothing(chromium, server):
-    with chromium.new_context(viewport={"width": 1400, "height": 900}) as context:
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="no-preference") as context:
         visit = Visit(context.new_page(), f"{server}?v=4", whole=False)
         page = visit.page
         assert page.title() == "Tippe top explorer"

@@ -73,20 +73,6 @@ def test_what_must_arrive_before_the_first_frame_is_small(server):
 
 
 @pytest.mark.served
-def test_a_first_visit_is_light(server, chromium):
-    """All that is fetched before the page is idle, compressed."""
-    page = chromium.new_page()
-    page.goto(server)
-    page.wait_for_function("window.Bokeh?.documents?.some((doc) => doc.is_idle)")
-    names = page.evaluate("performance.getEntriesByType('resource').map(({ name }) => name)")
-    page.close()
-    files = {server, *(name for name in names if name.startswith("http"))}
-    sizes = {name: len(gzip.compress(urllib.request.urlopen(name).read())) for name in files}
-    assert {"panel.min.js", "katex.min.js"} <= {name.split("?")[0].split("/")[-1] for name in sizes}
-    assert sum(sizes.values()) <= WHOLE, sizes
-
-
-@pytest.mark.served
 @pytest.mark.parametrize("lost", ["arrival.gz", "static/tippe.js"])
 def test_the_rest_comes_even_where_it_does_not(server, chromium, lost, page_errors):
     page_errors.allow(f"{LOST}|Failed to fetch|Bokeh|Panel")
@@ -101,7 +87,8 @@ def test_the_rest_comes_even_where_it_does_not(server, chromium, lost, page_erro
 
 @pytest.mark.served
 def test_it_moves_before_bokeh_comes_and_the_session_takes_over_what_a_hand_made_of_it(server, chromium):
-    page, order, held = chromium.new_page(viewport={"width": 1400, "height": 900}), [], []
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="no-preference")
+    order, held = [], []
     page.on("request", lambda request: order.append(("asked", request.resource_type, request.url)))
     page.on("requestfinished", lambda request: order.append(("came", request.resource_type, request.url)))
     page.route("**/bokeh.min.js*", lambda route: held.append(route))
@@ -116,6 +103,7 @@ def test_it_moves_before_bokeh_comes_and_the_session_takes_over_what_a_hand_made
     drawn = f"(([top]) => [top.t, ...top.quaternion, ...top.eye])({TOPS})"
     pose = page.evaluate(drawn)
     page.locator("#lab-spin").press("ArrowRight")
+    entry(page, "Friction").fill("0.1")
     assert held and page.evaluate("!window.Bokeh?.documents?.length")
     held[0].continue_()
     page.locator("#first").wait_for(state="detached")
@@ -124,7 +112,17 @@ def test_it_moves_before_bokeh_comes_and_the_session_takes_over_what_a_hand_made
     assert page.get_by_role("textbox", name="Spin, in turns a second").input_value() == "28.8"
     assert page.evaluate("before.isConnected")
     assert page.evaluate(drawn) == pytest.approx(pose, abs=2e-3)
-    # Bokeh was asked for last, and no font at all
+    page.wait_for_function("Bokeh.documents.some((doc) => doc.is_idle)")
+    bokeh_was_asked_for_last_and_all_is_light(page, order)
+    expect(entry(page, "Friction")).to_be_focused()  # who typed types on
+    page.keyboard.type("2")
+    page.keyboard.press("Enter")
+    page.wait_for_url("**mu_k=.12*")
+    page.close()
+
+
+def bokeh_was_asked_for_last_and_all_is_light(page, order):
+    """And no font was; light is all that was fetched before the page is idle, compressed."""
     early = json.loads(page.locator("#early").inner_text())
 
     def place(step, name):
@@ -133,21 +131,8 @@ def test_it_moves_before_bokeh_comes_and_the_session_takes_over_what_a_hand_made
     needed = max(place("came", name.split("?")[0].lstrip(".")) for name in (early["bundle"], early["numbers"]))
     assert min(place("asked", name) for name in ("bokeh.min.js", "panel.min.js")) > needed
     assert not [url for _, kind, url in order if kind == "font"]
-    page.close()
-
-
-@pytest.mark.served
-def test_who_types_while_the_session_comes_types_on(server, chromium):
-    page, held = chromium.new_page(viewport={"width": 1400, "height": 900}), []
-    page.route("**/bokeh.min.js*", lambda route: held.append(route))
-    page.goto(f"{server}?", wait_until="commit")
-    page.wait_for_function(DRAWN)
-    entry(page, "Friction").fill("0.1")
-    held[0].continue_()
-    page.locator("#first").wait_for(state="detached")
-    page.wait_for_function("Bokeh.documents.some((doc) => doc.is_idle)")
-    expect(entry(page, "Friction")).to_be_focused()
-    page.keyboard.type("2")
-    page.keyboard.press("Enter")
-    page.wait_for_url("**mu_k=.12*")
-    page.close()
+    names = page.evaluate("performance.getEntriesByType('resource').map(({ name }) => name)")
+    files = {page.url.split("?")[0], *(name for name in names if name.startswith("http"))}
+    sizes = {name: len(gzip.compress(urllib.request.urlopen(name).read())) for name in files}
+    assert {"panel.min.js", "katex.min.js"} <= {name.split("?")[0].split("/")[-1] for name in sizes}
+    assert sum(sizes.values()) <= WHOLE, sizes

@@ -34,30 +34,31 @@ def middle(part):
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
-def test_the_bar_is_dragged_from_a_rest_and_moved_by_keys(lab):
-    page = lab().page
-    time, head = page.get_by_role("slider", name="Time"), page.locator(".strip .head")
-    before, (x, y) = head.bounding_box(), middle(head)
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.wait_for_timeout(500)  # the rest itself
-    page.mouse.move(x + 80, y - 30)
-    page.mouse.move(x + 200, y - 60)
-    assert head.bounding_box()["x"] - before["x"] == pytest.approx(200, abs=2)
-    page.mouse.up()
-    ends = page.locator(".strip .axis").first.bounding_box()
-    expected = float(time.get_attribute("max")) * (x + 200 - ends["x"]) / ends["width"]
-    page.wait_for_function(f"t => Math.abs({NOW} - t) < 0.02", arg=expected)
-    time.press("Home")
-    page.wait_for_function(f"{TIME} == 0")
-    expect(time).to_have_attribute("aria-valuetext", re.compile("^0.00 s, tilt 6 degrees"))
-    time.press("ArrowRight")
-    page.wait_for_function(f"{TIME} > 0")
-
-
-def test_what_is_typed_or_selected_stays_while_answers_come(lab):
-    """What is typed next would otherwise be appended to what was selected."""
+def test_fields_ask_and_show_what_was_before_and_what_is_typed_stays(lab):
     found = lab()
+    the_run_before_stays_pale_until_it_is_dismissed(found)
+    what_is_typed_or_selected_stays_while_answers_come(found)
+    a_slider_asks_at_every_move_and_spin_it_is_the_stronger_the_longer_it_is_held(found)
+
+
+def the_run_before_stays_pale_until_it_is_dismissed(found):
+    page = found.page
+    put(page, "Spin, in turns a second", 22)
+    page.get_by_text("Spin: 28.6 rev/s → 22.0 rev/s").wait_for()
+    page.get_by_text("Before: Spin 28.6 rev/s").wait_for()
+    for picture in (".strip", ".answer"):
+        expect(page.locator(f"{picture} .then")).to_have_count(1)
+    page.get_by_role("button", name="Go back to before").click()
+    found.until(lambda: round(found.lab.explorer.spin, 1) == 28.6)
+    expect(page.locator(".strip .then")).to_have_count(0)
+    put(page, "Spin, in turns a second", 30)
+    page.get_by_role("button", name="Forget the run before").click()
+    page.get_by_text("Before: Spin").wait_for(state="hidden")
+    expect(page.locator(".strip .then")).to_have_count(0)
+
+
+def what_is_typed_or_selected_stays_while_answers_come(found):
+    """What is typed next would otherwise be appended to what was selected."""
     page, tilt = found.page, entry(found.page, "Tilt, in degrees")
     tilt.fill("7,2")
     slid(page, "spin", 29)
@@ -74,6 +75,25 @@ def test_what_is_typed_or_selected_stays_while_answers_come(lab):
     tilt.press("Enter")
     alert.wait_for(state="hidden")
     assert tilt.input_value() == "5.7"
+
+
+def a_slider_asks_at_every_move_and_spin_it_is_the_stronger_the_longer_it_is_held(found):
+    page, spin = found.page, entry(found.page, "Spin, in turns a second")
+    put(page, "Spin, in turns a second", 30)
+    found.until(lambda: found.lab.explorer.spin == 30)
+    before, slider = line(page), page.locator("#lab-spin")
+    for _ in range(12):
+        slider.press("ArrowLeft")
+    assert spin.input_value() == "28.8"
+    found.until(lambda: found.lab.explorer.spin == 28.8)
+    page.wait_for_function("([line, before]) => line.getAttribute('points') != before",
+                           arg=[page.locator(".strip .rest").first.element_handle(), before])  # fmt: skip
+    page.get_by_role("button", name="Spin it").hover()
+    page.mouse.down()
+    page.get_by_role("button", name="50 rev/s").wait_for()
+    page.mouse.up()
+    found.until(lambda: found.lab.explorer.spin == 50)
+    page.get_by_role("button", name="Pause").wait_for()
 
 
 def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(lab):
@@ -109,43 +129,6 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(lab):
     page.get_by_role("slider", name="Time").press("Home")
     handle.press("ArrowRight")
     found.until(lambda: start.tilt != pulled)
-
-
-def test_spin_it_is_the_stronger_the_longer_it_is_held_and_a_slider_asks_at_every_move(lab):
-    found = lab()
-    page, spin = found.page, entry(found.page, "Spin, in turns a second")
-    put(page, "Spin, in turns a second", 30)
-    found.until(lambda: found.lab.explorer.spin == 30)
-    before, slider = line(page), page.locator("#lab-spin")
-    for _ in range(12):
-        slider.press("ArrowLeft")
-    assert spin.input_value() == "28.8"
-    found.until(lambda: found.lab.explorer.spin == 28.8)
-    page.wait_for_function("([line, before]) => line.getAttribute('points') != before",
-                           arg=[page.locator(".strip .rest").first.element_handle(), before])  # fmt: skip
-    page.get_by_role("button", name="Spin it").hover()
-    page.mouse.down()
-    page.get_by_role("button", name="50 rev/s").wait_for()
-    page.mouse.up()
-    found.until(lambda: found.lab.explorer.spin == 50)
-    page.get_by_role("button", name="Pause").wait_for()
-
-
-def test_the_run_before_stays_pale_until_it_is_dismissed(lab):
-    found = lab()
-    page = found.page
-    put(page, "Spin, in turns a second", 22)
-    page.get_by_text("Spin: 28.6 rev/s → 22.0 rev/s").wait_for()
-    page.get_by_text("Before: Spin 28.6 rev/s").wait_for()
-    for picture in (".strip", ".answer"):
-        expect(page.locator(f"{picture} .then")).to_have_count(1)
-    page.get_by_role("button", name="Go back to before").click()
-    found.until(lambda: round(found.lab.explorer.spin, 1) == 28.6)
-    expect(page.locator(".strip .then")).to_have_count(0)
-    put(page, "Spin, in turns a second", 30)
-    page.get_by_role("button", name="Forget the run before").click()
-    page.get_by_text("Before: Spin").wait_for(state="hidden")
-    expect(page.locator(".strip .then")).to_have_count(0)
 
 
 def run_from_its_start(page):
@@ -207,8 +190,33 @@ IN_ITS_AREA = """(answer) => {
 }"""
 
 
-def test_a_picture_that_is_enlarged_is_painted_as_before_and_has_numbers_at_the_pointer(lab):
+def test_its_bar_is_dragged_and_moved_by_keys_and_a_picture_is_enlarged(lab):
     page = lab().page
+    the_bar_is_dragged_from_a_rest_and_moved_by_keys(page)
+    a_picture_that_is_enlarged_is_painted_as_before_and_has_numbers_at_the_pointer(page)
+
+
+def the_bar_is_dragged_from_a_rest_and_moved_by_keys(page):
+    time, head = page.get_by_role("slider", name="Time"), page.locator(".strip .head")
+    before, (x, y) = head.bounding_box(), middle(head)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.wait_for_timeout(500)  # the rest itself
+    page.mouse.move(x + 80, y - 30)
+    page.mouse.move(x + 200, y - 60)
+    assert head.bounding_box()["x"] - before["x"] == pytest.approx(200, abs=2)
+    page.mouse.up()
+    ends = page.locator(".strip .axis").first.bounding_box()
+    expected = float(time.get_attribute("max")) * (x + 200 - ends["x"]) / ends["width"]
+    page.wait_for_function(f"t => Math.abs({NOW} - t) < 0.02", arg=expected)
+    time.press("Home")
+    page.wait_for_function(f"{TIME} == 0")
+    expect(time).to_have_attribute("aria-valuetext", re.compile("^0.00 s, tilt 6 degrees"))
+    time.press("ArrowRight")
+    page.wait_for_function(f"{TIME} > 0")
+
+
+def a_picture_that_is_enlarged_is_painted_as_before_and_has_numbers_at_the_pointer(page):
     plot, larger = page.locator(".answer .plot"), page.get_by_role("button", name="Large, over the whole window")
     page.locator("summary", has_text="Numbers").click()
     page.get_by_role("slider", name="Time").press("Home")

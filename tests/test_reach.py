@@ -1,13 +1,14 @@
-"""The page for people who use the keyboard or a screen reader, for first visitors, and in German."""
+"""The page for people who use the keyboard or a screen reader, for first visitors, and in German; its look and the
+wheel."""
 
 import re
 from pathlib import Path
 
 import pytest
-from axe import DARK_LARGE, check
+from axe import DARK_LARGE, LIGHT, LOOK, check
 from visiting import Visit
 
-from app.text import listed
+from app.text import listed, say
 
 pytestmark = pytest.mark.served
 
@@ -73,6 +74,7 @@ def test_keys_of_the_page_and_a_tour_that_covers_nothing_it_shows(chromium, serv
     page.get_by_role("button", name="Share").click()
     page.locator("svg:has(title:text-is('QR code of the link'))").wait_for()
     check(page, "Share", DARK_LARGE)
+    page.evaluate(LOOK, LIGHT)
     page.keyboard.press("Escape")
     for size in ({"width": 1400, "height": 900}, {"width": 390, "height": 844}):
         page.set_viewport_size(size)
@@ -97,6 +99,7 @@ def the_tour(page, width):
         ), (width, i, box, shown)  # fmt: skip
         if i == 1 and width > 1000:
             check(page, "the tour", DARK_LARGE)
+            page.evaluate(LOOK, LIGHT)
         if i < 5:
             page.get_by_role("button", name="Next", exact=True).click()
     page.keyboard.press("Escape")
@@ -107,13 +110,27 @@ def the_tour(page, width):
     page.locator(".stop").wait_for(state="hidden")
 
 
-def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_changes_the_language(chromium, server):
-    page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+def test_a_german_page_says_nothing_in_english_adapts_and_keeps_its_state_in_another_language(chromium, server):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, color_scheme="dark", reduced_motion="reduce")
     Visit(page, f"{server}?lang=de&tab=roll", near=True)
     assert page.evaluate("document.documentElement.lang") == "de"
+    it_says_nothing_in_english(page)
+    page.keyboard.press("Escape")
+    the_wheel(page)
+    decimal_commas(page)
+    its_look(page)
+    before = page.url
+    page.get_by_role("radio", name="English").click()
+    page.wait_for_function("document.documentElement.lang == 'en' && window.__tippe?.top3d?.pictures > 0")
+    assert page.url == before.replace("lang=de", "lang=en")
+    assert page.get_by_role("slider", name="Jellett’s constant").input_value() == "6.5"
+    page.close()
+
+
+def it_says_nothing_in_english(page):
+    """Nor do its errors and its tour."""
     page.get_by_role("slider", name="Jellett-Konstante").press("ArrowLeft")
     page.wait_for_url(re.compile(r"\?v=4&.*&KJ=6\.99&.*&lang=de&level=research$"))
-    before = page.url
     inertia = page.get_by_label("Trägheitsmoment um die Achse, in M R Quadrat")
     inertia.fill("2")
     inertia.press("Enter")
@@ -138,10 +155,62 @@ def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_chang
     assert english & set(said) == set()
     long = [words for words in english if len(words) > 11]
     assert [words for words in long if any(words in each for each in said)] == []
-    page.keyboard.press("Escape")
-    page.get_by_role("button", name="Mehr").click()
-    page.get_by_role("radio", name="English").click()
-    page.wait_for_function("document.documentElement.lang == 'en' && window.__tippe?.top3d?.pictures > 0")
-    assert page.url == before.replace("lang=de", "lang=en")
-    assert page.get_by_role("slider", name="Jellett’s constant").input_value() == "6.99"
-    page.close()
+
+
+LOOKS = "name => document.documentElement.dataset.look === name"
+HIGHER = "([part, before]) => part.getBoundingClientRect().top < before"
+
+
+def the_wheel(page):
+    """Over the top it scrolls the page, and with Ctrl it zooms."""
+    top = page.locator("canvas[aria-label^='Der Kreisel']").first
+    top.click()  # also after a click, which does not turn it
+    slider = page.get_by_role("slider", name="Jellett-Konstante").element_handle()
+    box, before = top.bounding_box(), slider.bounding_box()["y"]
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.wheel(0, 100)
+    page.wait_for_function(HIGHER, arg=[slider, before])
+    assert top.bounding_box()["y"] > 0  # it stays in sight
+    assert "view=" not in page.url
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, 100)
+    page.keyboard.up("Control")
+    page.wait_for_function("() => location.search.includes('view=')")
+
+
+TICKS = """ticks => {
+  const [ours] = [...Bokeh.documents[0].all_models].filter(({ type }) => type === "CustomJSTickFormatter")
+  const theirs = new (Bokeh.Models.get("BasicTickFormatter"))()
+  return [ours, theirs].map(each => each.doFormat(ticks, { loc: 0 }))
+}"""
+
+
+def decimal_commas(page):
+    """On axes, in fields, and in 3-D."""
+    page.locator(".clock").filter(has_text=re.compile(r"^\d+,\d\d s$")).wait_for()
+    field = page.get_by_role("textbox", name="Jellett-Konstante, in Wurzel g durch R")
+    field.fill("6,5")
+    field.press("Enter")
+    page.wait_for_function("() => /KJ=6\\.5/.test(location.search)")
+    page.get_by_role("radio", name=say("research.panels.time", "de")).click()
+    page.locator("[data-figure=times-theta]").wait_for()
+    for given in ([-0.5, 0.1 + 0.2, 1], [0, 0.5, 1], [-2e-7, -1e-7, 0], [0, 50000, 100000], [1.0001, 1.0002], []):
+        ours, theirs = page.evaluate(TICKS, given)
+        assert ours == [each.replace(".", ",") for each in theirs], given
+    assert page.evaluate(TICKS, [-0.5, 0.1 + 0.2, 1])[0] == ["−0,5", "0,3", "1"]
+    assert page.evaluate(TICKS, [-2.5e-7, -1e-7])[0] == ["−2,500e−7", "−1,000e−7"]
+
+
+def its_look(page):
+    """It is dark where the system is, until a person chooses."""
+    page.wait_for_function(LOOKS, arg="dark")
+    page.get_by_role("button", name="Mehr", exact=True).click()
+    box = page.get_by_label("dunkel", exact=True)
+    assert box.is_checked() and "dark" not in page.url
+    for look in ("light", "dark"):
+        page.emulate_media(color_scheme=look)
+        page.wait_for_function(LOOKS, arg=look)
+    box.click()
+    page.wait_for_function(LOOKS, arg="light")
+    page.wait_for_function("() => location.search.includes('dark=no')")
+    assert not box.is_checked()

@@ -15,7 +15,7 @@ from app.text import listed
 pytestmark = pytest.mark.served
 
 
-def test_what_it_does_is_told_in_words(lab):
+def test_what_it_does_is_told_in_words_and_its_trace_is_on_the_ball(lab):
     run, page = whole_on("ordinary", start_of("Leine and Glocker's toy", 28.65, 5.73, 0.3)), lab().page
     moved, unit = run.trajectory, run.start.scales.time
     told, time = page.get_by_role("status", name="What the top does now"), page.get_by_role("slider", name="Time")
@@ -34,10 +34,10 @@ def test_what_it_does_is_told_in_words(lab):
             assert much == "hardly" or way.endswith("anticlockwise" if turns > 0 else "second clockwise")
     page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek:lab', {detail: {t: 60}}))")
     told.filter(has_text="on its stem alone").wait_for(state="attached")
+    its_trace_is_on_the_ball_beside_its_map(page)
 
 
-def test_the_trace_is_on_the_ball_beside_its_map(lab):
-    page = lab().page
+def its_trace_is_on_the_ball_beside_its_map(page):
     page.get_by_role("tab", name="Trace").click()
     page.get_by_role("slider", name="Time").press("End")
     page.get_by_text("at a tilt of 84° it turns back").wait_for()

@@ -194,7 +194,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     page = save("One page to mail", "HTML")
     assert page.stat().st_size < 3_200_000  # with the runs on three tables, and Bokeh
     visit.page.close()  # otherwise both are drawn all the time
-    context = chromium.new_context(offline=True)
+    context = chromium.new_context(offline=True, reduced_motion="no-preference")
     mailed, asked = context.new_page(), []
     mailed.on("request", lambda request: asked.append(request.url))
     mailed.goto(page.as_uri())

@@ -21,6 +21,24 @@ FLAGS = [
 # Three-dimensional pictures have a sixteenth of their pixels: the processor draws them. All else is as it is.
 COARSE = "Object.defineProperty(window, 'devicePixelRatio', { get: () => 1 / 4 })"
 
+# A page that moves shows some six pictures a second, each of two frames: they cost a core of the processor otherwise. A
+# single frame does not wait.
+FEW_FRAMES = """{
+  const paint = window.requestAnimationFrame, waiting = new Set()
+  let count = 0, last = 0
+  window.requestAnimationFrame = (run) => {
+    const id = ++count
+    waiting.add(id)
+    setTimeout(() => paint((now) => {
+      if (!waiting.delete(id)) return
+      last = performance.now()
+      run(now)
+    }), last + 80 - performance.now())
+    return id
+  }
+  window.cancelAnimationFrame = (id) => waiting.delete(id)
+}"""
+
 # A column of a data source in the browser, given the name of its figure, the index of the renderer and the column; of
 # Fig. 6, which is our own, a column of its limits.
 COLUMN = """
@@ -146,7 +164,8 @@ def launch(playwright):
 class Contexts:
     """The browser's contexts, emptied when they are closed and used again: a new one takes a second of a processor.
 
-    Three-dimensional pictures are drawn coarsely in them, unless the test names a `device_scale_factor` of its own.
+    Three-dimensional pictures are drawn coarsely in them, unless the test names a `device_scale_factor` of its own, and
+    seldom, if the test wants motion (`reduced_motion="no-preference"`).
     """
 
     def __init__(self, browser):
@@ -160,6 +179,8 @@ class Contexts:
         context = self._make(**like)
         if "device_scale_factor" not in like:
             context.add_init_script(COARSE)
+        if like.get("reduced_motion") == "no-preference":
+            context.add_init_script(FEW_FRAMES)
         keeper = context.new_page()  # without any page, the process that draws would end
         storage = context.new_cdp_session(keeper)
 
@@ -190,7 +211,7 @@ class Contexts:
 
 def wait(page, ready):
     """Waits for a condition that cannot be written as one JavaScript expression."""
-    return patience.poll(ready, lambda: page.wait_for_timeout(25))
+    return patience.poll(ready, lambda: page.wait_for_timeout(50))
 
 
 class Visit:
