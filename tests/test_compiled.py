@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from decimal import Decimal
 from importlib import import_module
 from math import inf
@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from serving import serving, until
+from serving import served, serving, until
 from wire import Visitor, run
 
 import tippe_core
@@ -376,16 +376,28 @@ async def moves(url):
     return answered
 
 
+@contextmanager
+def begun(command, kernels, log, monkeypatch):
+    """Serves the page by this command, with this folder as numba's cache."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(kernels))
+    if command.startswith("app"):
+        code = "from tippe_core import kept; kept.folder.cache_clear()"
+        with served(log, code=code, arguments=command.split()[1:]) as server:
+            yield server
+    else:
+        with serving([sys.executable, "-m", *command.split()], log, ROOT) as server:
+            yield server
+
+
 @pytest.mark.served
 @pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
 @pytest.mark.parametrize("command", ["app", pytest.param("panel serve app", marks=pytest.mark.long)])
-def test_a_server_that_finds_no_kernels_answers_while_they_are_compiled(command, tmp_path):
+def test_a_server_that_finds_no_kernels_answers_while_they_are_compiled(command, tmp_path, monkeypatch):
     """The file that says that everything is stored is missing: otherwise this would take minutes."""
     log, here = tmp_path / "log", kept.folder()
     there = tmp_path / "kernels" / "tippe-top-explorer" / here.name
     shutil.copytree(here, there, ignore=shutil.ignore_patterns(kept.COMPLETE))
-    told = ["env", f"NUMBA_CACHE_DIR={tmp_path / 'kernels'}", sys.executable, "-m", *command.split()]
-    with serving(told, log, ROOT) as server:
+    with begun(command, tmp_path / "kernels", log, monkeypatch) as server:
         assert run(moves(server.url)) == "OK"
         until(lambda: "kernels are compiled" in log.read_text(), 300)
     said = log.read_text()
@@ -418,10 +430,9 @@ def still_runs(pid):
     ("app --workers 2", signal.SIGKILL), *(pytest.param(*each, marks=pytest.mark.long) for each in (
         ("app", signal.SIGTERM), ("app", signal.SIGKILL), ("app --workers 2", signal.SIGINT),
         ("panel serve app", signal.SIGINT), ("panel serve app", signal.SIGKILL)))])  # fmt: skip
-def test_what_compiles_for_a_server_ends_with_it(command, end, tmp_path):
-    told = ["env", f"NUMBA_CACHE_DIR={tmp_path / 'kernels'}", sys.executable, "-m", *command.split()]
+def test_what_compiles_for_a_server_ends_with_it(command, end, tmp_path, monkeypatch):
     many = 2 if "2" in command else 1
-    with serving(told, tmp_path / "log", ROOT) as server:
+    with begun(command, tmp_path / "kernels", tmp_path / "log", monkeypatch) as server:
 
         def compilers():
             return [each for each, line in descendants(server.process.pid).items() if "\0tippe_core\0" in line]
