@@ -151,10 +151,9 @@ def today(link, what):
 
 
 @contextmanager
-def kept(link, every=False):
+def kept(link):
     """A list of (UrlState, owner, {parameter: Name}) of all that a page keeps. Of the views only those are made, at
-    once, that keep something of this link or may set it back, because the others take most of the time; every: all that
-    are looked at."""
+    once, that keep something of this link or may set it back, because the others take most of the time."""
     parts, add, fill = [], UrlState.add, rooms.Place.fill
     keeping = {"lab", "learn", "maps", "measure"}
 
@@ -163,7 +162,7 @@ def kept(link, every=False):
         parts.append((url_state, owner, of(type(owner).__name__)))
 
     def filled(place):
-        if every or place.column.name.removeprefix("place-of-") in keeping:
+        if place.column.name.removeprefix("place-of-") in keeping:
             fill(place)
 
     places = patch.multiple(rooms.Place, fill=filled, ask=filled)

@@ -125,7 +125,7 @@ def laid_out(page, figure, high):
 OURS = BEFORE.read_text(encoding="utf-8").partition("// 2.")[0]
 
 
-def test_a_figure_is_painted_without_asking_the_style_sheets(bare):
+def a_figure_is_painted_without_asking_the_style_sheets(bare):
     """1. The part of app/borrowed.js that runs before Panel's scripts."""
     assert painted(bare) > 20  # otherwise this patch is no longer needed
     bare.evaluate(f"() => {{ {OURS} }}")
@@ -163,7 +163,7 @@ def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
     page.close()
 
 
-def test_a_place_of_a_figure_is_where_its_scales_say(bare):
+def a_place_of_a_figure_is_where_its_scales_say(bare):
     """3. Each corner of the frame, compared with Bokeh's own events, which are public."""
     bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")
     left, top = bare.evaluate("() => { const { left, top } = over.getBoundingClientRect(); return [left, top] }")
@@ -177,18 +177,18 @@ def test_a_place_of_a_figure_is_where_its_scales_say(bare):
         bare.evaluate("() => { window.told = null }")
 
 
-def test_what_hears_the_mouse_has_its_cursor(bare):
+def what_hears_the_mouse_has_its_cursor(bare):
     """4. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
-    bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.heard = true })")
+    bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.pressed = true })")
     bare.mouse.click(200, 150)
-    assert bare.evaluate("() => window.heard")
+    assert bare.evaluate("() => window.pressed")
     bare.evaluate("() => fig.on_event('mousemove', () => borrowed.setCursor(fig, 'ns-resize'))")
     bare.mouse.move(210, 160)
     bare.wait_for_function("() => getComputedStyle(borrowed.eventsOf(fig)).cursor === 'ns-resize'")
     assert bare.evaluate("() => borrowed.elementOf(fig).getBoundingClientRect().width") == 400
 
 
-def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
+def a_hand_that_rests_before_it_pulls_still_pulls(bare):
     """5."""
     bare.evaluate(
         "() => { window.heard = []; for (const name of ['press', 'panstart'])"
@@ -208,6 +208,13 @@ def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
     assert rest_and_pull() == ["press"]  # otherwise this patch is no longer needed
     bare.evaluate("() => borrowed.pressNever(fig)")
     assert rest_and_pull() == ["panstart"]
+
+
+def test_what_is_borrowed_for_a_figure_works_and_is_needed(bare):
+    a_place_of_a_figure_is_where_its_scales_say(bare)
+    what_hears_the_mouse_has_its_cursor(bare)
+    a_hand_that_rests_before_it_pulls_still_pulls(bare)
+    a_figure_is_painted_without_asking_the_style_sheets(bare)
 
 
 # ---- of three.js ----
@@ -254,13 +261,18 @@ def space(chromium):
     page.close()
 
 
-def test_a_target_has_the_colours_of_a_screen(space):
+def a_target_has_the_colours_of_a_screen(found, linear):
     """6."""
-    assert space.evaluate("() => window.pixel(true).bytes")[0] == 128
-    assert space.evaluate("() => window.pixel(false).bytes")[0] < 80  # linear; else not needed
+    assert found["bytes"][0] == 128
+    assert linear["bytes"][0] < 80  # else not needed
 
 
-def test_webgl_finds_what_three_has_drawn(space):
+def webgl_finds_what_three_has_drawn(found):
     """7."""
-    found = space.evaluate("() => window.pixel(true)")
-    assert found["buffer"] and found["same"] == found["bytes"] and found["same"][0] == 128
+    assert found["buffer"] and found["same"] == found["bytes"]
+
+
+def test_what_is_borrowed_for_a_picture_in_space_works_and_is_needed(space):
+    found, linear = (space.evaluate("(like) => window.pixel(like)", like) for like in (True, False))
+    a_target_has_the_colours_of_a_screen(found, linear)
+    webgl_finds_what_three_has_drawn(found)

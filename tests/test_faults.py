@@ -7,19 +7,20 @@ import shutil
 import signal
 import subprocess
 import sys
-import threading
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from bokeh.util.token import generate_jwt_token, generate_session_id
-from lab_page import DRAWN, TIME, entry, put
+from components import alone as alone
+from components import lab as lab
+from lab_page import DRAWN, entry, put
 from serving import answers, end, served, until
 from test_operating import until_told
 from tornado.httpclient import HTTPClientError
-from visiting import free_port, go_to, texts, wait
-from watching import LOST as LOST_SERVER
+from visiting import free_port, wait
+from watching import LOST
 from wire import TOKEN, Closed, Visitor, get, run
 
 from app.server.admission import Admission
@@ -28,13 +29,10 @@ from app.server.settings import Settings
 from app.server.sockets import SOCKETS, Socket
 from app.text import LANGUAGES, say
 from app.widgets.waiting import REASONS, waiting
-from tippe_core import LoadedSphere, save_top
 
-LOST = "No connection to the server"
 ROOT = Path(__file__).parent.parent
 SPIN = "Spin, in turns a second"
 HERE = "() => window.Bokeh?.documents?.length > 0"
-TOP = save_top(LoadedSphere(R=0.02345, b=0.008, d=0.010, density=1190.0, core_density=7850.0)).encode()
 
 
 def set_spin(page, text):
@@ -54,7 +52,7 @@ def has_come_back(page, spin):
 
 @pytest.fixture
 def page(chromium, page_errors):
-    page_errors.allow(f"{LOST_SERVER}|Failed to load Bokeh|Error rendering Bokeh items")
+    page_errors.allow(f"{LOST}|Failed to load Bokeh|Error rendering Bokeh items")
     page = chromium.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
     yield page
     page.close()
@@ -69,47 +67,28 @@ def goes_on(page):
 
 
 @pytest.mark.served
-def test_what_is_taken_from_a_page_comes_back_with_all_that_was_set(page, tmp_path):
-    """Its graphics, and then its server, which before refuses nothing of what the page sends."""
-    page.emulate_media(reduced_motion="no-preference")  # it must go on
-    port = free_port()
-    with served(tmp_path / "log", port=port) as server:
-        page.goto(f"{server.url}?tab=build-a-top")
-        page.locator("input[type=file]").set_input_files(
-            {"name": "top.json", "mimeType": "application/json", "buffer": TOP}
-        )
-        wait(page, lambda: any("23.45" in text for text in texts(page)))
-        go_to(page, "Learn")
-        page.locator("input[type=range]:visible").first.press("ArrowRight")
-        go_to(page, "Lab")
-        page.wait_for_function(DRAWN)
-        page.evaluate("""() => {
-            const { prototype } = WebGL2RenderingContext, { fenceSync } = prototype
-            prototype.fenceSync = () => { prototype.fenceSync = fenceSync; return null }
-        }""")  # what a picture finds between the loss and its event
-        page.wait_for_function("WebGL2RenderingContext.prototype.fenceSync.length > 0")
-        goes_on(page)
-        page.evaluate("""() => {
-            const canvases = []
-            const look = (root) => { for (const each of root.querySelectorAll("*")) {
-                if (each.localName == "canvas" && each.getContext("webgl2")) canvases.push(each)
-                if (each.shadowRoot) look(each.shadowRoot) } }
-            look(document)
-            window.lost = canvases.map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"))
-            lost.forEach((each) => each.loseContext())
-        }""")
-        told = page.get_by_text("graphics memory away").locator("visible=true")
-        told.first.wait_for()
-        page.evaluate("lost.forEach((each) => each.restoreContext())")
-        wait(page, lambda: not told.count())
-        goes_on(page)
-        set_spin(page, "29.5")
-        assert "refused" not in server.log and "Traceback" not in server.log
-        server.process.kill()
-        page.get_by_text(LOST).wait_for()
-        page.wait_for_function(f"t => {TIME} != t", arg=page.evaluate(TIME))  # the picture goes on without a server
-    with served(tmp_path / "log", port=port):
-        has_come_back(page, "29.5")
+def test_graphics_memory_that_is_taken_away_is_said_and_the_picture_goes_on_when_it_is_back(lab):
+    page = lab(reduced_motion="no-preference").page  # it must go on
+    page.evaluate("""() => {
+        const { prototype } = WebGL2RenderingContext, { fenceSync } = prototype
+        prototype.fenceSync = () => { prototype.fenceSync = fenceSync; return null }
+    }""")  # what a picture finds between the loss and its event
+    page.wait_for_function("WebGL2RenderingContext.prototype.fenceSync.length > 0")
+    goes_on(page)
+    page.evaluate("""() => {
+        const canvases = []
+        const look = (root) => { for (const each of root.querySelectorAll("*")) {
+            if (each.localName == "canvas" && each.getContext("webgl2")) canvases.push(each)
+            if (each.shadowRoot) look(each.shadowRoot) } }
+        look(document)
+        window.lost = canvases.map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"))
+        lost.forEach((each) => each.loseContext())
+    }""")
+    told = page.get_by_text("graphics memory away").locator("visible=true")
+    told.first.wait_for()
+    page.evaluate("lost.forEach((each) => each.restoreContext())")
+    wait(page, lambda: not told.count())
+    goes_on(page)
 
 
 @contextmanager
@@ -240,69 +219,19 @@ def hold(page, name):
     return go
 
 
-@contextmanager
-def guest(url):
-    """Somebody without a browser has the page open until the end of the block."""
-    came, goes = threading.Event(), threading.Event()
-
-    async def stay():
-        visitor = await Visitor.enter(url)
-        came.set()
-        while not goes.is_set():
-            await asyncio.sleep(0.05)
-        visitor.leave()
-
-    thread = threading.Thread(target=run, args=(stay(),))
-    thread.start()
-    until(came.is_set)
-    try:
-        yield
-    finally:
-        goes.set()
-        thread.join()
-
-
 @pytest.mark.served
-def test_a_page_that_is_refused_at_its_socket_says_why_and_comes(page, tmp_path):
-    """Its scripts came too late; there was no room; and somebody in between closed it without a reason."""
+def test_a_page_that_is_refused_at_its_socket_says_why_and_comes_by_itself(page, tmp_path):
+    """Its scripts came too late; tests/frontend/waiting.test.js has all reasons."""
     page.add_init_script(HELD)
-    with served(tmp_path / "log", code=OLD, sessions=1, linger=1) as server:
-
-        def comes():
-            page.wait_for_function(COMES)
-            wait(page, lambda: not page.locator("#waiting").count())
-            page.goto("about:blank")
-            until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
-
+    with served(tmp_path / "log", code=OLD) as server:
         go = hold(page, "/bokeh.min.js")
         page.goto(server.url, wait_until="commit")
         page.wait_for_function(SAYS, arg=say("main.server.coming", "en"))
         go()
         page.get_by_text(say("main.server.ended", "en")).wait_for()
-        comes()  # by itself
+        page.wait_for_function(COMES)
+        wait(page, lambda: not page.locator("#waiting").count())
         assert "ended: " in server.log
-
-        go = hold(page, "/bokeh.min.js")
-        page.goto(server.url, wait_until="commit")
-        with guest(server.url):
-            go()
-            page.get_by_text(say("main.server.full", "en")).wait_for()
-        comes()
-
-        sockets = []
-
-        def first_only(socket):
-            sockets.append(socket)
-            if len(sockets) == 1:
-                socket.close(code=1000)
-            else:
-                socket.connect_to_server()
-
-        page.route_web_socket(re.compile("/ws"), first_only)
-        page.goto(server.url, wait_until="commit")
-        page.get_by_text(say("main.server.lost", "en")).wait_for()
-        page.get_by_role("button", name=say("main.server.now", "en")).click()
-        page.wait_for_function(HERE)
 
 
 # --- the system
@@ -321,48 +250,41 @@ runpy.run_module("app", run_name="__main__", alter_sys=True)
 """Runs the server without what is missing on Windows, or in its Python; elsewhere SIGALRM is 14."""
 
 
-@pytest.mark.served
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
-def test_it_serves_on_a_full_disk_and_where_the_system_lacks_what_windows_lacks():
-    port = free_port()
-    command, room = [sys.executable, "-c", LACKS, "", "", ""], {"TIPPE_PORT": str(port), "TMPDIR": "/dev/full"}
-    with open("/dev/full", "w") as full:
-        process = subprocess.Popen(command, cwd=ROOT, stdout=full, stderr=full, env=os.environ | room)
-    try:
-        until(lambda: answers(f"http://127.0.0.1:{port}/liveness"))
-        assert run(Visitor.enter(f"http://127.0.0.1:{port}/app")).component("LabView")
-        done = subprocess.run([*command, "--workers=2"], cwd=ROOT, capture_output=True, text=True)
-        assert done.returncode == 2 and "'2'; allowed is a whole number from 1 to 1: this system" in done.stderr
-    finally:
-        process.terminate()
-        assert process.wait(60) == 0
-
-
 LISTENS_IN = """
-import sys
+import os, sys
+calls = open(os.environ["CALLS"], "a", buffering=1)
 def heard(event, arguments):
     if event in ("socket.connect", "socket.getaddrinfo", "socket.gethostbyname"):
-        print("CALLS", event, arguments[event == "socket.connect"], flush=True)
+        print(event, arguments[event == "socket.connect"], file=calls)
     elif event == "import" and arguments[0] == "matplotlib":
-        print("CALLS", *arguments[:1], flush=True)
+        print(*arguments[:1], file=calls)
 sys.addaudithook(heard)
 """
 
 
 @pytest.mark.served
-def test_the_server_calls_nobody_and_needs_no_place_to_write(tmp_path, monkeypatch):
-    """matplotlib does need one, for its list of fonts, but only when a figure is printed."""
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
+def test_on_a_full_disk_where_the_system_lacks_what_windows_lacks_it_serves_and_calls_nobody(tmp_path):
+    """matplotlib needs a place to write, for its list of fonts, but only when a figure is printed."""
     (tmp_path / "sitecustomize.py").write_text(LISTENS_IN)
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    port, calls, command = free_port(), tmp_path / "calls", [sys.executable, "-c", LACKS, "", "", ""]
+    room = os.environ | {"TIPPE_PORT": str(port), "TIPPE_ADDRESS": "127.0.0.1", "TMPDIR": "/dev/full",
+                         "PYTHONPATH": str(tmp_path), "CALLS": str(calls)}  # fmt: skip
 
-    async def visit(url):
-        visitor = await Visitor.enter(f"{url}?tab=roll")
+    async def visit():
+        visitor = await Visitor.enter(f"http://127.0.0.1:{port}/app?tab=roll")
         answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "asked", [1, "K_J", 6.5, False]))
         visitor.leave()
         return answered
 
-    with served(tmp_path / "log", before=[sys.executable, "-c", LACKS]) as server:
-        assert run(visit(server.url)) == "OK"
-        calls = [line for line in server.log.splitlines() if line.startswith("CALLS")]
-        assert "Traceback" not in server.log
-    assert calls == ["CALLS socket.getaddrinfo 127.0.0.1"]  # its own address, to listen on
+    with open("/dev/full", "w") as full:
+        process = subprocess.Popen(command, cwd=ROOT, stdout=full, stderr=full, env=room)
+    try:
+        until(lambda: answers(f"http://127.0.0.1:{port}/liveness"))
+        assert run(visit()) == "OK"
+        assert calls.read_text().splitlines() == ["socket.getaddrinfo 127.0.0.1"]  # its own address, to listen on
+        done = subprocess.run([*command, "--workers=2"], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == 2 and "'2'; allowed is a whole number from 1 to 1: this system" in done.stderr
+    finally:
+        process.terminate()
+        assert process.wait(60) == 0

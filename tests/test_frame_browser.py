@@ -7,7 +7,7 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 import pytest
 import visitors
 from components import alone as alone
-from lab_page import come, put
+from lab_page import put
 from serving import served
 from visiting import wait
 from watching import LOST
@@ -48,7 +48,7 @@ class Course(BaseHTTPRequestHandler):
         pass
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def host():
     """The address of the course."""
     server = HTTPServer(("127.0.0.1", 0), Course)
@@ -58,10 +58,22 @@ def host():
     server.server_close()
 
 
-def code(page):
-    page.get_by_role("button", name="Share", exact=True).click()
-    page.get_by_text("In a page of yours").wait_for()
-    return page.get_by_role("textbox", name="In a page of yours")
+@pytest.fixture(scope="module")
+def framed(host, tmp_path_factory):
+    """The address of the page, which the course may frame."""
+    with served(tmp_path_factory.mktemp("framed") / "log", frames=host) as server:
+        yield server.url
+
+
+async def embed(url):
+    """(the code for a frame, whether the server allows any) that Share gives."""
+    page = await visitors.come(url)
+    await page.head("share")
+    await page.until(lambda: page.visitor.find("Embed"))
+    [part] = page.visitor.find("Embed")
+    found = page.now(part, "code"), page.now(part, "frames")
+    await page.leave()
+    return found
 
 
 def course(context, host, iframe):
@@ -77,13 +89,13 @@ def whole(frame):
     frame.wait_for_selector(".lab[data-whole]")
 
 
-def test_a_course_shows_it_as_high_as_it_is_and_keeps_its_own_scrolling_and_keys(host, tmp_path, chromium):
-    like = {"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce"}
-    with served(tmp_path / "log", frames=host) as server, chromium.new_context(**like) as context:
-        shared = come(context.new_page(), f"{server.url}?v=4&spin=20").page
-        iframe = code(shared).input_value()
-        assert re.search(r'src="[^"]*\?v=4&amp;spin=20&amp;frame=1"', iframe)
-        shared.close()
+LIKE = {"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce"}
+
+
+def test_a_course_shows_it_as_high_as_it_is_and_keeps_its_own_scrolling_and_keys(host, framed, chromium):
+    iframe, _ = run(embed(f"{framed}?v=4&spin=20"))
+    assert re.search(r'src="[^"]*\?v=4&amp;spin=20&amp;frame=1"', iframe)
+    with chromium.new_context(**LIKE) as context:
         page, frame = course(context, host, iframe.replace("<iframe", SANDBOX))
         whole(frame)
         root = frame.locator("html")
@@ -109,12 +121,11 @@ def test_a_course_shows_it_as_high_as_it_is_and_keeps_its_own_scrolling_and_keys
         wait(page, lambda: not root.evaluate(SCROLLS))
 
 
-def test_the_lesson_in_a_sandbox_keeps_its_height_and_prints_into_a_file(host, tmp_path, chromium, page_errors):
+def test_the_lesson_in_a_sandbox_keeps_its_height_and_prints_into_a_file(host, framed, chromium, page_errors):
     for what in ("allow-popups", "origin 'null'", "tippe.js", "Bokeh", LOST):  # what the browser refuses, it says
         page_errors.allow(what)
-    like = {"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce"}
-    with served(tmp_path / "log", frames=host) as server, chromium.new_context(**like) as context:
-        lesson = f'{SANDBOX} src="{server.url}?tab=learn&amp;frame=1" width="900" allow="fullscreen"></iframe>'
+    with chromium.new_context(**LIKE) as context:
+        lesson = f'{SANDBOX} src="{framed}?tab=learn&amp;frame=1" width="900" allow="fullscreen"></iframe>'
         page, frame = course(context, host, lesson)
         frame.locator(".option").first.wait_for()
         wait(page, lambda: page.evaluate("heights.at(-1) > 300"))
@@ -133,13 +144,8 @@ def test_the_lesson_in_a_sandbox_keeps_its_height_and_prints_into_a_file(host, t
 
 
 def test_a_server_that_allows_no_frame_says_which_setting_does(tmp_path, alone):
-    async def frames(url):
-        page = await visitors.come(url)
-        await page.head("share")
-        await page.until(lambda: page.visitor.find("Embed"))
-        return page.now(page.visitor.find("Embed")[0], "frames")
-
     with served(tmp_path / "log") as server:
-        page = alone().show(Embed(code="<iframe>", frames=run(frames(server.url))))
+        code, allowed = run(embed(server.url))
+    page = alone().show(Embed(code=code, frames=allowed))
     page.get_by_text("TIPPE_FRAMES").wait_for()
     assert not page.locator("textarea").is_visible()

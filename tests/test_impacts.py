@@ -112,7 +112,6 @@ LAWS = st.one_of(
     st.builds(Coulomb, st.floats(0.05, 2.0)), st.builds(Viscous, st.floats(0, 3.0)),
     st.builds(SmoothedCoulomb, st.floats(0.05, 2.0), st.floats(0.05, 1.0)))  # fmt: skip
 RATES = st.floats(-9, 9)
-TABLE_PULLED = State(1.0, 0.5, 3, 8)  # its F_z was -0.09 at the start
 
 
 @settings(max_examples=40)

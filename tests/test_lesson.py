@@ -20,7 +20,6 @@ from app.tabs.learn.lesson import opened
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, SmoothedCoulomb, Top, pole_constants, slide
 
-SCENE = Explorer().scene
 RAD_S = 180.0  # of the arrival's toy
 
 

@@ -5,6 +5,7 @@ import math
 import measured_bodies as bodies
 import numpy as np
 import pytest
+from test_measured_fit import from_here
 
 from app.model.measured.data import settled
 from app.model.measured.fit import fit
@@ -64,8 +65,9 @@ def test_one_angle_from_the_side_is_that_of_the_axis_in_the_picture(filmed):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("view", ["side", "above"])
-def test_a_film_of_two_points_gives_the_numbers_of_its_motion(view, filmed):
+def test_a_film_of_two_points_gives_the_numbers_of_its_motion(view, filmed, monkeypatch):
     top, scales, truth, axis = filmed
+    from_here(truth, monkeypatch)
     held = {name: truth[name] for name in ("mu", "eps")}  # the rest of them: tests/measured_proof.py
     found = fit(
         model_of("smoothed", top, scales, **held),

@@ -35,7 +35,7 @@ def shown(seed, rate, seconds=1.2):
             "across": 0.034 * axis[:, 0]}  # fmt: skip
 
 
-@pytest.mark.parametrize(("seed", "rate"), [(0, 60), (0, 120), (6, 120), (4, 60), (1, 120), (2, 240)])
+@pytest.mark.parametrize(("seed", "rate"), [(0, 60), (4, 60), (2, 240)])
 def test_the_error_that_is_found_from_the_scatter_leaves_the_nutation_out(seed, rate):
     """Third differences alone gave up to 106 times the true error where a nutation takes a few frames."""
     rng = np.random.default_rng(seed)

@@ -15,6 +15,7 @@ from serving import until
 
 from app.model.explorer import Explorer
 from app.model.families.family import share_map
+from app.model.lab.ends import SPINS
 from app.model.lab.lab import Lab
 from app.model.lesson import lesson
 from app.model.runs import LATER, MAPS, NICE, TURN, WORK, Pool, Run, Runs
@@ -154,8 +155,9 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
     assert "Cancelled" in compare.said.object and not compare.start.disabled
 
 
-def test_what_a_hand_waits_for_does_not_wait_for_the_rest_of_other_runs(page):
-    """Somebody who has requested nothing is not told that he waits."""
+def test_what_a_hand_waits_for_does_not_wait_for_the_rest_of_other_runs(page, monkeypatch):
+    """Somebody who has requested nothing is not told that he waits. The ends are those of a few spins."""
+    monkeypatch.setattr("app.model.lab.ends.SPINS", SPINS[::10])
     go, places = threading.Event(), []
     for name in range(LATER.threads + 1):
         LATER.add(name, lambda: go.wait(PATIENCE), places.append)

@@ -9,6 +9,7 @@ import threading
 from contextlib import contextmanager, suppress
 
 import pytest
+from lab_page import TIME
 from playwright.sync_api import Error
 from serving import served
 from test_faults import HERE, has_come_back, set_spin
@@ -36,7 +37,7 @@ def page(chromium, page_errors):
 
 class Line:
     """A line to a server, at a port of its own. cut(): what is on it from now on is lost, in both directions, without
-    a word; a connection that is made after mend() is a new line."""
+    a word; a connection that is made after mend() is a new line. While the server is gone, it is refused."""
 
     def __init__(self, port):
         self.port, self._to, self._lines = free_port(), port, []
@@ -60,7 +61,11 @@ class Line:
         with suppress(OSError):
             while True:
                 here, _ = self._listening.accept()
-                there = socket.create_connection(("127.0.0.1", self._to))
+                try:
+                    there = socket.create_connection(("127.0.0.1", self._to))
+                except OSError:
+                    here.close()
+                    continue
                 lost = threading.Event()
                 if not self._open.is_set():
                     lost.set()
@@ -74,14 +79,15 @@ class Line:
             while data := one.recv(65536):
                 if not lost.is_set():
                     other.sendall(data)
+        with suppress(OSError):
             if not lost.is_set():
                 other.shutdown(socket.SHUT_WR)
 
 
 @contextmanager
-def line_to(server):
-    """A Line to a server, and the address of the page over it."""
-    line = Line(int(server.root.rsplit(":", 1)[1]))
+def line_to(port):
+    """A Line to the server at this port, and the address of the page over it."""
+    line = Line(port)
     try:
         yield line, f"http://127.0.0.1:{line.port}/app"
     finally:
@@ -94,47 +100,44 @@ def ask_in_vain(page, table):
     page.evaluate("skip(6000)")
 
 
-def test_a_server_that_hangs_is_said_a_line_that_was_cut_is_lost_and_each_time_all_that_was_set_is_there(
-    page, tmp_path
-):
-    """What was asked of the server that hangs is done when it goes on; the line is cut without a word."""
-    with served(tmp_path / "log") as server, line_to(server) as (line, url):
-        page.goto(url)
-        set_spin(page, "29.5")
-        says = page.get_by_role("alert").filter(has_text=SILENT)
-        os.kill(server.process.pid, signal.SIGSTOP)
-        try:
-            ask_in_vain(page, "Rough")
-            says.wait_for()
-        finally:
-            os.kill(server.process.pid, signal.SIGCONT)
-        says.wait_for(state="detached")
-        page.wait_for_function("location.search.includes('rough')")
-        line.cut()
-        ask_in_vain(page, "Ice")
-        says.wait_for()
-        page.evaluate("skip(25_000)")
-        page.get_by_role("alert").filter(has_text=say("main.lost", "en")).wait_for()
-        assert page.evaluate("window.mark") == 1  # nothing answers: there is nothing to load
-        line.mend()
-        has_come_back(page, "29.5")
-
-
-def test_a_tab_that_slept_while_its_server_was_replaced_comes_back_and_so_does_one_that_is_restored(page, tmp_path):
-    """Asleep a page runs no line of its scripts; a tab that was closed is loaded anew, with a token of its own."""
+def test_whatever_becomes_of_its_server_the_page_says_it_and_comes_back_with_all_that_was_set(page, tmp_path):
+    """It hangs, and does what was asked of it when it goes on; its line is cut without a word; it is killed while the
+    tab sleeps, in which a page runs no line of its scripts."""
     port = free_port()
-    devtools = page.context.new_cdp_session(page)
-    with served(tmp_path / "log", port=port) as server:
-        page.goto(server.url)
-        set_spin(page, "29.5")
-        devtools.send("Page.setWebLifecycleState", {"state": "frozen"})
-    with served(tmp_path / "log", port=port):
-        with suppress(Error):  # Chromium had not let it sleep: it is on its way back by itself
+    with line_to(port) as (line, url):
+        with served(tmp_path / "log", port=port) as server:
+            page.goto(url)
+            set_spin(page, "29.5")
+            says = page.get_by_role("alert").filter(has_text=SILENT)
+            os.kill(server.process.pid, signal.SIGSTOP)
+            try:
+                ask_in_vain(page, "Rough")
+                says.wait_for()
+            finally:
+                os.kill(server.process.pid, signal.SIGCONT)
+            says.wait_for(state="detached")
+            page.wait_for_function("location.search.includes('rough')")
+            lost = page.get_by_role("alert").filter(has_text=say("main.lost", "en"))
+            line.cut()
+            ask_in_vain(page, "Ice")
+            says.wait_for()
+            page.evaluate("skip(25_000)")
+            lost.wait_for()
+            assert page.evaluate("window.mark") == 1  # nothing answers: there is nothing to load
+            line.mend()
+            has_come_back(page, "29.5")
+            page.evaluate("window.mark = 1")
+            devtools = page.context.new_cdp_session(page)
+            devtools.send("Page.setWebLifecycleState", {"state": "frozen"})
+            server.process.kill()
+        with suppress(Error):  # Chromium had not let it sleep
             devtools.send("Page.setWebLifecycleState", {"state": "active"})
-        has_come_back(page, "29.5")
-        page.goto("about:blank")
-        page.go_back()
-        has_come_back(page, "29.5")
+        lost.wait_for()
+        page.get_by_role("button", name="Play", exact=True).click()
+        page.wait_for_function(f"t => {TIME} != t", arg=page.evaluate(TIME))  # it plays without a server
+        with served(tmp_path / "log", port=port) as server:
+            has_come_back(page, "29.5")
+            assert "refused" not in server.log and "Traceback" not in server.log
 
 
 @pytest.mark.long
