@@ -11,7 +11,9 @@ from app.model.build.dimensions import FAMILIES, value_of
 from app.model.build.inside import INSIDE, filled
 from app.model.build.measures import measures
 from app.model.explorer import Explorer
+from app.model.families.known_tops import known_of
 from app.model.lab.ends import SPINS, Ends
+from app.model.start import arrives
 from app.tabs.build.section import Section
 from app.tabs.build.verdict import strip_of
 from app.text import written
@@ -84,4 +86,7 @@ def test_the_strip_of_ends_has_each_of_them_and_the_spin_of_the_verdict():
     assert drawn.count('class="end ') == len(ends.segments) + len({each.code for each in ends.segments})
     assert "left: 57.30%" in drawn and TOY not in drawn  # 28.65 of 50 rev/s
     assert all(each.word in drawn for each in ends.segments)
+    least = min(spin for spin, code in zip(SPINS, ends.codes, strict=True) if code == "stands")
+    assert f"stands on its stem, from {least:.1f}<" in drawn  # the same spin as on the map of all tops
+    assert least == known_of(Explorer(**arrives()).scene).stands_from
     assert 'class="end ' not in strip_of(None)

@@ -38,6 +38,12 @@ class Run:
         self._slice = math.inf
         self._give_way: Callable[[float], None] = time.sleep
 
+    def enter(self, pool: Pool, page: object, drop: Piece, here: Callable[[], bool]) -> None:
+        """Gives it a place in a pool, as work of a page. drop: takes it out of the queue; here: whether the page is
+        connected."""
+        self._drop, self._here, self._rest = drop, here, lambda: pool.rest(page)
+        self._slice, self._give_way = pool.slice, partial(pool.give_way, page)
+
     @property
     def elapsed(self) -> float:
         """The time taken so far, s."""
@@ -199,8 +205,7 @@ class Runs:
             if its_kind == kind:
                 before.forget()
         self._under_way[run] = kind
-        run._drop, run._here, run._rest = drop, self._here, lambda: pool.rest(self)
-        run._slice, run._give_way = pool.slice, partial(pool.give_way, self)
+        run.enter(pool, self, drop, self._here)
         try:
             pool.add(self, worked, lambda place: self.post(lambda: self._waits(place)))
         except Full as full:

@@ -7,7 +7,6 @@ import panel as pn
 from app.model.arrival import MU, SPIN, TILT
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
-from app.model.maps.maps import AT_FIRST
 from app.model.playing import Playing, together
 from app.model.runs import Runs, connected_to, to_session
 from app.model.setup import PATCH
@@ -15,7 +14,7 @@ from app.page.site import mailed
 from app.share.letter import figures
 from app.share.saved_runs import Shown
 from app.state import opened as room
-from app.state.names import LEVELS, ROOMS, TAB
+from app.state.names import LEVELS, ROOMS
 from app.state.url_state import explorer_of, kept
 from app.tabs.build.build import Build
 from app.tabs.build.built import Built
@@ -66,7 +65,7 @@ class Session:
         self.builder = Builder(self.explorer.scene, self.scheduler.ask)
         self.scheduler.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
-        self._learn, self._place, self._linked = None, {}, texts.get(TAB)
+        self._learn, self._place = None, {}
         self.url_state = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=room.shortest)
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
@@ -213,9 +212,7 @@ class Session:
         return learn.view
 
     def maps(self):
-        # a link to Maps that names no map opens the one that it always has
-        seconds = {} if self._linked == "maps" else {"seconds": AT_FIRST}
-        maps = Maps(self.runs, self.scene, self._throw, **seconds)
+        maps = Maps(self.runs, self.scene, self._throw)
         self.url_state.add(maps.choice, usual=lambda choice: maps.usual)
         maps.choice.param.watch(lambda *events: self.url_state.commit(), [*maps.choice.INPUTS])
         self.scheduler.shows(maps.show, "rest")

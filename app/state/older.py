@@ -2,7 +2,8 @@
 
 In version 1 each view of the Lab had its own top, start and table. In versions 1 and 2 an address without a tab opened
 the rolling motion, the toy always had a real contact, and static friction was .5 until it was set. Up to version 3 the
-Lab had three rooms, two of them at the level "Research", at which the paper's top was the default.
+Lab had three rooms, two of them at the level "Research", at which the paper's top was the default, and a link to Maps
+that named no map opened that of 6 s.
 """
 
 from app.model.setup import LAWS, TOYS
@@ -21,6 +22,7 @@ MU = ".5"  # static friction where none was said
 MU_S = ".4"  # the default of Coulomb's law on the three planes in version 1
 PAPERS = {"by": "share", "spin": "20", "tilt": "10", "mu_k": ".3", "mu": ".5", "law": "smoothed"}
 """The start at the level "Research" up to version 3, where it differed from the arrival."""
+MAP = "spin_5_50_tilt_1_40_contensou_0_6_48"
 PAPERS_BODY = {"body": Body.text(TruncatedSphere.paper()), "a": ".07", "I1": ".399", "I3": ".408"}
 
 
@@ -34,6 +36,8 @@ def fourth(texts):
         found = PAPERS | ({} if "body" in texts else PAPERS_BODY) | found
     if room == ROLLING:
         found = {"slow": "16", "table": "rough"} | found
+    if room == "maps":
+        found = {"map": MAP} | found
     is_lab = room in (ROLLING, PLANES)
     known = LAB if said in (ROLLING, PLANES) else said  # what is not known is said to be
     return found | {TAB: known, LEVEL: LEVELS[1] if is_lab else level}

@@ -20,6 +20,13 @@ const typed = {
   },
 };
 
+// Each folder imports only from those before it, and from the files beside them all.
+const FOLDERS = ["motion", "figures", "three", "controls", "widgets", "plane", "lab", "learn"];
+const importsOnly = (/** @type {string[]} */ folders, /** @type {string[]} */ files) => ({
+  files, rules: { "no-restricted-imports": ["error", { patterns: [{ regex: `^\\.\\.?/(${folders.join("|")})/` }] }] },
+});
+const BASE = "data,life,parts,paint,colours,tokens,style,ends,regimes,borrowed,stand_in";
+
 export default [
   { ignores: ["app/static"] }, // the bundle
   js.configs.recommended,
@@ -60,5 +67,7 @@ export default [
   },
   { files: ["app/*.js", "app/{page,server,share}/*.js"], languageOptions: { sourceType: "commonjs" } }, // they are inlined in a page
   { files: ["app/frontend/src/**/*.js"], plugins: { ours: { rules: { typed } } }, rules: { "ours/typed": "error" } },
+  ...FOLDERS.slice(0, -1).map((folder, i) => importsOnly(FOLDERS.slice(i + 1), [`app/frontend/src/${folder}/*.js`])),
+  importsOnly(FOLDERS, [`app/frontend/src/{${BASE}}.js`]),
   { files: ["tests/frontend/*.js"], languageOptions: { globals: globals.node } },
 ];

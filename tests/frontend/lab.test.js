@@ -1,12 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { trackOf } from "../../app/frontend/src/lab/answer.js";
-import { Asking } from "../../app/frontend/src/lab/asking.js";
+import { Asking } from "../../app/frontend/src/controls/asking.js";
 import { Before } from "../../app/frontend/src/lab/before.js";
 import { keptAt } from "../../app/frontend/src/lab/keeps.js";
 import { strengthOf } from "../../app/frontend/src/lab/launch.js";
-import { Curves, latest, placed, tempo, ticks, TILT } from "../../app/frontend/src/lab/curves.js";
-import { read, say, written } from "../../app/frontend/src/widgets/parts.js";
+import { Curves, latest, placed, tempo, ticks, TILT } from "../../app/frontend/src/motion/curves.js";
+import { read, say, written } from "../../app/frontend/src/parts.js";
 import { near } from "./helping.js";
 
 const curves = (...rows) => new Curves(new Float32Array(rows.flatMap(([t, tilt]) => [t, tilt, 0, 0, 0, 0, 0, 0])).buffer);

@@ -3,9 +3,9 @@
 import { bytesOf, fill, valued } from "./data.js";
 import { nearestRow } from "./figures/curves.js";
 import { inOneLanguage } from "./first.js";
-import { TABLES } from "./lab/curves.js";
+import { TABLES } from "./motion/curves.js";
 import { renderLab } from "./lab/lab.js";
-import { written } from "./widgets/parts.js";
+import { written } from "./parts.js";
 import { renderLesson } from "./learn/lesson.js";
 import { drawIn } from "./letter.js";
 import { numbersIn } from "./stand_in.js";

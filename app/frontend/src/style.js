@@ -1,6 +1,6 @@
 // One style sheet for both pictures. Text and lines use the colour of the page, so a dark page needs no second sheet.
 import { colours } from "./colours.js";
-import { part } from "./widgets/parts.js";
+import { part } from "./parts.js";
 
 export const style = `
 :host { --line: color-mix(in srgb, currentColor 18%, transparent); }

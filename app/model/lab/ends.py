@@ -30,7 +30,8 @@ LOOKS = 0.2  # s between two checks of a page that waits for the result of anoth
 
 
 class Segment(NamedTuple):
-    """From one spin to another (rev/s) all runs end alike: code is one of ends.IN_LAB or "mixed", word is its name."""
+    """From the spin of the first of these runs to that of the first of the next (rev/s) all end alike: code is one of
+    ends.IN_LAB or "mixed", word is its name."""
 
     least: float
     most: float
@@ -50,11 +51,11 @@ class Ends(NamedTuple):
         """The runs grouped into Segments, with words in the page's language; "mixed" where neighbouring runs
         alternate."""
         part = say(f"planes.parts.{self.part}")
-        edges = [self.spins[0], *(self.spins[1:] + self.spins[:-1]) / 2, self.spins[-1]]
+        begins = [*self.spins, self.spins[-1]]
         found, place = [], 0
         for code, group in groupby(mixed(self.codes)):
             first, place = place, place + len(list(group))
-            found.append(Segment(float(edges[first]), float(edges[place]), code, say(f"lab.ends.{code}", part=part)))
+            found.append(Segment(float(begins[first]), float(begins[place]), code, say(f"lab.ends.{code}", part=part)))
         return tuple(found)
 
 

@@ -21,6 +21,7 @@ OLD = """
 h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2 }
 """
 
+TURNED = ("stands", "inverted")  # of these the least spin is said
 
 STRIP = (
     """
@@ -122,7 +123,10 @@ def strip_of(ends, why=""):
         f'right: {100 * (high - each.most) / (high - low):.2f}%"></span>'
         for each, stretch in zip(parts, stretches, strict=True)
     )  # fmt: skip
-    kinds = {each.code: html.escape(spelled(each.word)) for each in parts}
+    kinds = {}
+    for each in parts:
+        from_least = say("build.verdict.least", word=each.word, least=each.least)
+        kinds.setdefault(each.code, html.escape(spelled(from_least if each.code in TURNED else each.word)))
     key = "".join(
         f'<span><i class="end {code}" style="{_colour(code)}"></i>{word}</span>' for code, word in kinds.items()
     )

@@ -11,7 +11,7 @@ from app.model.maps.body import outline_of
 from app.model.maps.choice import AT, MapChoice
 from app.model.maps.kept import claimed, keep, recall
 from app.model.maps.lines import disagreements, lines
-from app.model.maps.maps import OWN, QUANTITIES, Map, of_page
+from app.model.maps.maps import AT_FIRST, OWN, QUANTITIES, Map, of_page
 from app.model.maps.solving import run as one_run
 from app.model.maps.solving import solve
 from app.model.maps.throw import throw_of
@@ -32,7 +32,7 @@ from app.widgets.forms import Button
 from app.widgets.plots import pane
 from tippe_core import TopError
 
-MAP = Map()
+MAP = Map(seconds=AT_FIRST)
 PICTURE_EVERY = 0.3  # s
 OTHERS = 0.3  # s between two looks for a map that is being computed for another page
 # On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
@@ -54,17 +54,15 @@ WHY = 3  # reasons for each kind of disagreement that are shown
 class Maps:
     """The content of the tab. runs: the page's Runs; scene: the page's, whose top slides; without it, the toy of the
     arrival. throw(toy, spin, tilt, mu, look) makes the run at the bead the start, when a person moves it; look: and
-    shows the Lab. seconds: of the map that is shown unless a link names one. usual: the choices that a link need not
-    mention."""
+    shows the Lab. usual: the choices that a link need not mention."""
 
-    def __init__(self, runs=None, scene=None, throw=None, seconds=MAP.seconds):
+    def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
         self.choice, self.level, self._seen, self._outline = MapChoice(), None, None, None
         self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen, self._outline = of_page(scene), scene.profile
-            self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
-            self.choice.asked = replace(self.usual["asked"], seconds=seconds)
+            self.choice.asked = self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.worst, self.key = words(), words(margin=(6, 0))

@@ -1,7 +1,7 @@
 // Buttons.
 import { follow } from "../life.js";
 import { frame } from "./frame.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 const pressed = `button[aria-disabled=true] { opacity: .45; cursor: default; } button[aria-busy=true] { opacity: .6; cursor: progress; }
 .outline { text-align: center; white-space: nowrap; }`;

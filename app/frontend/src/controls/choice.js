@@ -2,7 +2,7 @@
 import { follow } from "../life.js";
 import { frame } from "./frame.js";
 import { segments } from "./style.js";
-import { Choice, part } from "../widgets/parts.js";
+import { Choice, part } from "../parts.js";
 
 const style = `${segments} .choice { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 8px; } @media (max-width: 700px) { .seg button { min-height: 44px; } }`;
 

@@ -1,6 +1,6 @@
 // A field for a short text, which counts once when Enter is pressed or the field is left; Escape brings back what was. An
 // element that was moved in the page raises no "change".
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 /** @param {Record<string, any>} attributes @param {(text: string) => void} send @param {() => void} back @returns {any} an input, with whether a person is typing as isTyping */
 export function entry(attributes, send, back) {

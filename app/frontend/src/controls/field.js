@@ -5,7 +5,7 @@ import { entry } from "./entry.js";
 import { frame } from "./frame.js";
 import { numbers } from "./style.js";
 import { explain } from "./wrong.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 let made = 0; // for the ids of labels
 const style = `${numbers} .field { display: inline-flex; flex-wrap: wrap; align-items: baseline; gap: 0 8px; } .field .num { height: max(28px, var(--touch) - 4px); } @media (max-width: 700px) { .field .num { height: 44px; } }

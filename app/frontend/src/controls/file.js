@@ -1,7 +1,7 @@
 // A button that opens a file of text, and a fold.
 import { follow } from "../life.js";
 import { frame } from "./frame.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 const opens = `label { display: inline-flex; align-items: center; cursor: pointer; border-radius: 6px; min-height: 36px; } label:hover { background: color-mix(in srgb, var(--ink) 7%, transparent); }
 label:focus-within { outline: 3px solid var(--accent); outline-offset: 2px; } input { position: absolute; opacity: 0; width: 1px; height: 1px; }`;

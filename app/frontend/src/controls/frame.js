@@ -1,7 +1,7 @@
 // What every part that stands in the page alone begins with.
 import { atEnd, followLook, lifeOf } from "../life.js";
 import { shared } from "./style.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 const alone = `${shared}
 .frame { container-type: normal; background: none; flex: 1 1 auto; min-width: 0; }

@@ -4,8 +4,8 @@ import { Control } from "./number.js";
 import { Picks } from "./picks.js";
 import { dock, forFingers, numbers, segments, shared } from "./style.js";
 import { ask } from "../data.js";
-import { Asking } from "../lab/asking.js";
-import { Choice, part } from "../widgets/parts.js";
+import { Asking } from "./asking.js";
+import { Choice, part } from "../parts.js";
 
 const style = `${shared}${numbers}${segments}
 .group { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 220px), 1fr)); gap: 8px 24px; align-items: start; }

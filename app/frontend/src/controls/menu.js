@@ -1,7 +1,7 @@
 // A menu, and checks.
 import { follow } from "../life.js";
 import { frame } from "./frame.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 let made = 0; // for the ids of labels
 

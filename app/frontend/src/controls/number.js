@@ -2,7 +2,7 @@
 import { fill, tidy } from "../data.js";
 import { entry } from "./entry.js";
 import { explain } from "./wrong.js";
-import { part, read, say, written } from "../widgets/parts.js";
+import { part, read, say, written } from "../parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, WIDE = 5.6, APART = 16; // px: least width of the strip of ends, a letter below it, a gap between words

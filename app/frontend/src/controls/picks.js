@@ -1,5 +1,5 @@
 // On a phone, number controls stand at the foot of the window, one at a time: a button for each, with its value.
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 /** @typedef {import("./number.js").Control} Control */
 

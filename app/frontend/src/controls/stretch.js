@@ -5,7 +5,7 @@ import { entry } from "./entry.js";
 import { frame } from "./frame.js";
 import { forFingers, numbers } from "./style.js";
 import { explain } from "./wrong.js";
-import { part, read, written } from "../widgets/parts.js";
+import { part, read, written } from "../parts.js";
 
 const style = `${numbers} .ctl { width: 100%; } .track { grid-column: 1 / -1; position: relative; height: 24px; }
 .track::before { content: ""; position: absolute; inset: 10px 0; border-radius: 2px;

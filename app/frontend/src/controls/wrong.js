@@ -1,5 +1,5 @@
 // Why something cannot be: the first sentence in bold, and a button for each way out.
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 /**
  * @param {HTMLElement} place

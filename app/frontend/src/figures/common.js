@@ -1,7 +1,7 @@
 // Used by all figures. Their models are not synced, so playing sends nothing to the server.
 import { elementOf, pressNever } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
-import { dress } from "../widgets/parts.js";
+import { dress } from "../parts.js";
 import { followClock, isFollowed, LAB } from "./seeking.js";
 
 // To a screen reader a canvas is an image with a name.

@@ -1,6 +1,6 @@
 // The values at a place of a figure, in one box for all figures: beside the pointer, inside the window, and never over
 // what it describes.
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 const GAP = 14, EDGE = 6; // px from the pointer or from what must stay visible, and from the edge of the window
 const STYLE = {

@@ -1,10 +1,10 @@
 // Shows one picture at a time; each answers a question about the run: where the height comes from, which way the top
 // turns, where it touches the table, and the ball.
 import { caps, trail } from "./caps.js";
-import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
-import { levels as grid, marks, times } from "./line.js";
+import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "../motion/curves.js";
+import { levels as grid, marks, times } from "../figures/line.js";
 import { lineOf } from "./numbers.js";
-import { Choice, drawn, dress, part, say } from "../widgets/parts.js";
+import { Choice, drawn, dress, part, say } from "../parts.js";
 import { Frames } from "../motion/frames.js";
 
 const NAMES = ["energy", "spin", "path", "trace"];
@@ -27,7 +27,7 @@ export class Answer {
     this.name = "energy";
     /** @type {((share: number) => [x: number, y: number, ground?: string]) | null} */
     this.unnamed = null; // where the name of the earlier run goes, at a fraction of that run
-    /** @type {import("./curves.js").Curves | null} */
+    /** @type {import("../motion/curves.js").Curves | null} */
     this.before = null;
     this.title = part("h2");
     this.note = part("p", { class: "small" });

@@ -1,5 +1,5 @@
 // "What did I change?": the previous run is shown beside the present one until it is dismissed; not with three tables.
-import { say, written } from "../widgets/parts.js";
+import { say, written } from "../parts.js";
 
 const SIZE = "dim:"; // a dimension of the body
 const GESTURE = 1500; // ms: changes of the same input that follow each other faster count as one

@@ -1,6 +1,6 @@
 // Controls in folds, like those of the start: the top's lengths and ballast, and the friction of the table.
 import { Control } from "../controls/number.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {"body" | "rubs"} word @param {"dims" | "rubs"} of their key in the state @param {any[]} first what stands above them */
 export function foldOf(texts, ask, word, of, ...first) {

@@ -1,6 +1,6 @@
 // The ball's surface as a map of two caps, seen from below and from the stem; away from the middle the tilt at which a
 // point touches the table. On it the trace of the contact.
-import { drawn, dress, say } from "../widgets/parts.js";
+import { drawn, dress, say } from "../parts.js";
 import { passedBy, traceOf } from "../motion/trace.js";
 import { Frames } from "../motion/frames.js";
 

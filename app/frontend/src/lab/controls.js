@@ -5,7 +5,7 @@ import { Control } from "../controls/number.js";
 import { Picks } from "../controls/picks.js";
 import { launchOf } from "./launch.js";
 import { lawOf } from "./law.js";
-import { part, say } from "../widgets/parts.js";
+import { part, say } from "../parts.js";
 
 export const INPUTS = ["spin", "tilt", "mu"];
 

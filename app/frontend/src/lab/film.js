@@ -10,7 +10,7 @@ import { followLook } from "../life.js";
 import { filmedOn } from "../motion/clock.js";
 import { HIGH, WIDE } from "../motion/filmed.js";
 import { imageOf, paintBox, paintWords } from "../paint.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 
 const CLOCK = "film";
 const STYLE = `${style} .film { position: fixed; left: -9999px; top: 0; visibility: hidden; width: ${WIDE}px; height: ${HIGH}px; }

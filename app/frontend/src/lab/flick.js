@@ -1,5 +1,5 @@
 // What a flick on the top asks for: a push, from which the run goes on as soon as it is computed, or a spin.
-import { say } from "../widgets/parts.js";
+import { say } from "../parts.js";
 
 // With three digits; to five of a unit.
 const digits = (size) => [size, Math.max(0, 2 - Math.floor(Math.log10(size || 1)))];

@@ -1,7 +1,7 @@
 // For three tables: what each of them conserves, from the start to the present moment. Python says how far.
 import { float32, rowBefore } from "../data.js";
-import { TABLES } from "./curves.js";
-import { drawn, part, say, written } from "../widgets/parts.js";
+import { TABLES } from "../motion/curves.js";
+import { drawn, part, say, written } from "../parts.js";
 
 const KINDS = ["kept", "swings", "nearly", "zero", "lost", "gripped"]; // as in app/model/keeps.py
 const OWN = { energy: { lost: "heat" }, spin: { zero: "reversed" } }; // a quantity's own word

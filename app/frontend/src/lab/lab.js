@@ -1,21 +1,21 @@
 // The Lab: one top, one start, and the chosen table, or all three. Python solves and says what happened; this draws and
 // plays it, and sends requests.
 import { Answer, trackOf } from "./answer.js";
-import { Asking } from "./asking.js";
+import { Asking } from "../controls/asking.js";
 import { Before } from "./before.js";
 import { Controls } from "./controls.js";
-import { Curves, TABLES } from "./curves.js";
+import { Curves, TABLES } from "../motion/curves.js";
 import { Film } from "./film.js";
 import { Flicking } from "./flick.js";
 import { Keeps } from "./keeps.js";
 import { numbersOf } from "./numbers.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 import { Sound } from "./sound.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { style } from "./style.js";
 import { Time } from "./time.js";
-import { SHOWS } from "./top.js";
+import { SHOWS } from "../three/top.js";
 import { wordsOf } from "./words.js";
 import { coalesce, debounce, float32 } from "../data.js";
 import { atEnd, followLook, lifeOf } from "../life.js";

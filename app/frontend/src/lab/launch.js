@@ -1,6 +1,6 @@
 // "Spin it". A press uses the spin that is set; holding the button increases the spin. While a run is computed,
 // progress and a button to stop it are shown instead.
-import { part, say } from "../widgets/parts.js";
+import { part, say } from "../parts.js";
 
 const LONG = 300, FULL = 2000; // ms: a longer press is a hold; from there to the greatest spin
 

@@ -1,5 +1,5 @@
 // The law of friction of the ordinary table, and what happens where the top hops: for the level "Research".
-import { Choice, part } from "../widgets/parts.js";
+import { Choice, part } from "../parts.js";
 
 /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask */
 export function lawOf(texts, ask) {

@@ -1,6 +1,6 @@
 // The numbers of the present moment, in a fold.
-import { ENERGY, HEAT, HEIGHT, SPIN, TIME, TURNING, TILT } from "./curves.js";
-import { part, say } from "../widgets/parts.js";
+import { ENERGY, HEAT, HEIGHT, SPIN, TIME, TURNING, TILT } from "../motion/curves.js";
+import { part, say } from "../parts.js";
 
 /** @type {[name: string, column: number, digits: number][]} */
 const ROWS = [["t", TIME, 2], ["tilt", TILT, 1], ["height", HEIGHT, 1], ["energy", ENERGY, 1], ["heat", HEAT, 1], ["spin", SPIN, 1], ["turning", TURNING, 1]];
@@ -23,6 +23,6 @@ const said = (texts, curves, name, column, digits, t) =>
   say(texts, `{value}${texts.number[name][1]}`, { value: [column === TIME ? t : curves.at(t, column), digits] });
 
 // Some of them in one line, to be shown at the pointer.
-/** @param {Record<string, any>} texts @param {import("./curves.js").Curves} curves @param {string[]} names @param {number} t */
+/** @param {Record<string, any>} texts @param {import("../motion/curves.js").Curves} curves @param {string[]} names @param {number} t */
 export const lineOf = (texts, curves, names, t) => ROWS.filter(([name]) => name === "t" || names.includes(name))
   .map(([name, column, digits]) => `${name === "t" ? "" : `${texts.number[name][0]} `}${said(texts, curves, name, column, digits, t)}`).join(" · ");

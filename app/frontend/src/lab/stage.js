@@ -1,12 +1,12 @@
 // The large picture: one top or three on their tables, with the switch of tables, the name of the top, what it is
 // doing, and how fast it turns.
 import { thenAt } from "./before.js";
-import { latest, TABLES, TILT, TURNING } from "./curves.js";
+import { latest, TABLES, TILT, TURNING } from "../motion/curves.js";
 import { pushesIn } from "./flick.js";
-import { Choice, drawn, part, say } from "../widgets/parts.js";
+import { Choice, drawn, part, say } from "../parts.js";
 import { toldOf } from "./told.js";
 import { SPEEDS } from "./time.js";
-import { ARROWS, NOTHING, SHOWS, Top } from "./top.js";
+import { ARROWS, NOTHING, SHOWS, Top } from "../three/top.js";
 
 const RING = "M18 14c-9 1.500-15 3.500-15 6 0 5 25 9 57 9 25 0 47-2.500 56-6";
 

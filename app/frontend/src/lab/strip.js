@@ -1,7 +1,7 @@
 // The tilt over time, which also controls the time: play, drag anywhere on it, the speed, and back to the start.
-import { latest, placed, TABLES, ticks, TILT } from "./curves.js";
-import { FOOT, LEFT, levels, marks, RIGHT, TimeLine, times } from "./line.js";
-import { drawn, icon, part, say } from "../widgets/parts.js";
+import { latest, placed, TABLES, ticks, TILT } from "../motion/curves.js";
+import { FOOT, LEFT, levels, marks, RIGHT, TimeLine, times } from "../figures/line.js";
+import { drawn, icon, part, say } from "../parts.js";
 import { SPEEDS } from "./time.js";
 
 const HEADROOM = 36; // px above the plot
@@ -13,7 +13,7 @@ export class Strip extends TimeLine {
   /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
   constructor(texts, time) {
     super(texts, time, { label: texts.time, step: 0.01 });
-    /** @type {import("./curves.js").Curves | null} */
+    /** @type {import("../motion/curves.js").Curves | null} */
     this.before = null;
     this.clock = part("span", { class: "clock" });
     this.speed = part("select", {

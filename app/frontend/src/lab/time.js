@@ -1,6 +1,6 @@
 // The time of the Lab's pictures. The tops play by themselves on one clock; this sets when and how fast, and announces
 // the time that they show.
-import { tempo } from "./curves.js";
+import { tempo } from "../motion/curves.js";
 import { followClock, LAB, seek } from "../figures/seeking.js";
 
 export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 32, 1 / 64]; // in units of real time

@@ -1,13 +1,13 @@
 // The stage in words, for those who do not see it: how far each top leans, what carries it, and how it turns.
-import { latest, SPIN, TABLES, TILT, TURNING } from "./curves.js";
-import { part, say } from "../widgets/parts.js";
+import { latest, SPIN, TABLES, TILT, TURNING } from "../motion/curves.js";
+import { part, say } from "../parts.js";
 import { debounce } from "../data.js";
 
 const SAY_MS = 400; // said once nothing new has happened for this long
 const STILL = 0.05; // turns a second that are not worth a word
 
 // A top at a time.
-/** @param {Record<string, any>} texts @param {{ curves: import("./curves.js").Curves, run: any }} of @param {number} t in s */
+/** @param {Record<string, any>} texts @param {{ curves: import("../motion/curves.js").Curves, run: any }} of @param {number} t in s */
 export function inWords(texts, { curves, run }, t) {
   const { leans, turns, rate, still, ways } = texts.told, [, on] = latest(run.carried, t);
   const [above, own] = [TURNING, SPIN].map((column) => {

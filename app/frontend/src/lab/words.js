@@ -1,6 +1,6 @@
 // What happens now and why, above it what was changed, and where to go next.
-import { latest } from "./curves.js";
-import { part, say } from "../widgets/parts.js";
+import { latest } from "../motion/curves.js";
+import { part, say } from "../parts.js";
 
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
 const OPEN = { rough: "three" }; // where the research is open already, or not there

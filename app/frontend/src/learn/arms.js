@@ -1,6 +1,6 @@
 // The paper's Fig. 4 at a moment: the section through contact and axis, and the two lever arms of a push at the
 // contact.
-import { drawn, dress } from "../widgets/parts.js";
+import { drawn, dress } from "../parts.js";
 import { float32 } from "../data.js";
 
 /** @typedef {[number, number]} Point */

@@ -1,7 +1,7 @@
 // The time, and the tilt as far as it has been seen: play, and drag anywhere. What comes after the guess is hidden.
-import { digitsOf, ticks, TILT } from "../lab/curves.js";
-import { FOOT, LEFT, levels, marks, TimeLine, times } from "../lab/line.js";
-import { drawn, part, say } from "../widgets/parts.js";
+import { digitsOf, ticks, TILT } from "../motion/curves.js";
+import { FOOT, LEFT, levels, marks, TimeLine, times } from "../figures/line.js";
+import { drawn, part, say } from "../parts.js";
 import { DASHES } from "./stage.js";
 
 const TOP = 20, LETTER = 6.6; // px

@@ -1,8 +1,8 @@
 // The picture of a step: curves as far as they have been seen, or the section with the two lever arms of a push.
 import { onBoth } from "../colours.js";
-import { digitsOf, ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../lab/curves.js";
-import { levels, marks as marksOf, times } from "../lab/line.js";
-import { drawn, dress, part, say } from "../widgets/parts.js";
+import { digitsOf, ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../motion/curves.js";
+import { levels, marks as marksOf, times } from "../figures/line.js";
+import { drawn, dress, part, say } from "../parts.js";
 import { float32 } from "../data.js";
 import { Arms } from "./arms.js";
 
@@ -17,7 +17,7 @@ export function apart(words, least, most) {
   return words;
 }
 
-/** @param {import("../lab/curves.js").Curves} curves @param {number} column @param {number} end */
+/** @param {import("../motion/curves.js").Curves} curves @param {number} column @param {number} end */
 function columnOf(curves, column, end) {
   const found = [];
   for (let i = 0; i < curves.count && curves.value(i, TIME) <= end + 1e-6; i++) found.push([curves.value(i, TIME), curves.value(i, column)]);

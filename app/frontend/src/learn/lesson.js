@@ -1,8 +1,8 @@
 // The lesson, step by step: a question about a top after a short look at it, and the answer after the rest of the run.
 // Python sends the words and the runs; once they are there, the page needs no server.
 import { follow, followLook, lifeOf } from "../life.js";
-import { Curves } from "../lab/curves.js";
-import { part } from "../widgets/parts.js";
+import { Curves } from "../motion/curves.js";
+import { part } from "../parts.js";
 import { Time } from "../lab/time.js";
 import { ask, coalesce } from "../data.js";
 import { Bar } from "./bar.js";

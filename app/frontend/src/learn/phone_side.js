@@ -1,6 +1,6 @@
 // A phone in a class: the number of the question, that its vote was sent, how many have voted, and the way to the
 // lesson alone.
-import { part, say } from "../widgets/parts.js";
+import { part, say } from "../parts.js";
 
 /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} replay */
 export function phoneSide(texts, ask, replay) {

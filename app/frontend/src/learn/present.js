@@ -1,6 +1,6 @@
 // The big screen in front of a class: the question and its top fill it, phones vote, and the votes stay hidden until
 // the answer.
-import { part, say } from "../widgets/parts.js";
+import { part, say } from "../parts.js";
 
 const LETTERS = "ABCDEFGH";
 const KEYS = [["←", "back"], ["→", "on"], ["Space", "play"], ["Alt+R", "reveal"], ["Alt+0", "reset"], ["Esc", "leave"]];

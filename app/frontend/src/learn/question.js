@@ -1,5 +1,5 @@
 // The question of a step: the possible guesses and, after the answer has been watched, the right one and why.
-import { part, say, typeset } from "../widgets/parts.js";
+import { part, say, typeset } from "../parts.js";
 
 // How a guess compares with the truth.
 /** @param {any} asks @param {any} truth @param {any} guess */

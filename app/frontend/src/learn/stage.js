@@ -1,7 +1,7 @@
 // The tops of a step, side by side, with their names below, and what the first one is doing.
-import { latest, TILT } from "../lab/curves.js";
-import { drawn, part, say } from "../widgets/parts.js";
-import { Top } from "../lab/top.js";
+import { latest, TILT } from "../motion/curves.js";
+import { drawn, part, say } from "../parts.js";
+import { Top } from "../three/top.js";
 import { Ways } from "./ways.js";
 
 const MOST = 3;

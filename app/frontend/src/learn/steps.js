@@ -1,5 +1,5 @@
 // Cohen's top by several laws of friction, and by Coulomb's in steps whose length a slider chooses.
-import { drawn, part, say } from "../widgets/parts.js";
+import { drawn, part, say } from "../parts.js";
 import { coalesce } from "../data.js";
 import { frame } from "../controls/frame.js";
 import { Graph } from "./graph.js";

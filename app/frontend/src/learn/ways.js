@@ -1,7 +1,7 @@
 // Which way a top turns, seen from above and from its stem: two circles, each with an arrow whose length shows how
 // fast.
-import { SPIN, TURNING } from "../lab/curves.js";
-import { drawn, part, say } from "../widgets/parts.js";
+import { SPIN, TURNING } from "../motion/curves.js";
+import { drawn, part, say } from "../parts.js";
 
 const SIZE = 64, R = 24, MOST = 300, HEAD = 9; // px, px, degrees, px
 
@@ -32,7 +32,7 @@ export class Ways {
     this.element = part("div", { class: "ways" }, ...this.circles.map(({ element }) => element));
   }
 
-  /** @param {import("../lab/curves.js").Curves} curves @param {number} t */
+  /** @param {import("../motion/curves.js").Curves} curves @param {number} t */
   at(curves, t) {
     const most = curves.at(0, SPIN);
     for (const { column, line, head, number } of this.circles) {

@@ -1,5 +1,5 @@
 // The selected motion: its tieline in the plane, the same in the plot of K_R, and the bead on both.
-import { drawn, dress } from "../widgets/parts.js";
+import { drawn, dress } from "../parts.js";
 /** @import { Plot } from "./scales.js" */
 
 const parts = () => ({

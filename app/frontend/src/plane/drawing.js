@@ -1,8 +1,8 @@
 // What stands still in Fig. 6 while a motion is pulled: the axes, the region of the motions that roll, and its limits.
 import { tidy } from "../data.js";
-import { ticks } from "../lab/curves.js";
-import { levels, marks } from "../lab/line.js";
-import { drawn } from "../widgets/parts.js";
+import { ticks } from "../motion/curves.js";
+import { levels, marks } from "../figures/line.js";
+import { drawn } from "../parts.js";
 /** @import { Box, Plot } from "./scales.js" */
 
 const CLOSE = 4; // px: tielines are no closer

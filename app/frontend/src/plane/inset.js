@@ -1,6 +1,6 @@
 // A tieline that is too short to be seen is also shown enlarged, in a corner of the plane.
 import { degrees, fill, local } from "../data.js";
-import { drawn } from "../widgets/parts.js";
+import { drawn } from "../parts.js";
 import { Chosen } from "./chosen.js";
 import { across, region, shortly, upwards } from "./drawing.js";
 import { plotOf } from "./scales.js";

@@ -1,6 +1,6 @@
 // The drawing of Fig. 6: a layer for what stands still, one for the path of a motion that slips, and the selected motion.
 import { ROLLS } from "../regimes.js";
-import { drawn } from "../widgets/parts.js";
+import { drawn } from "../parts.js";
 import { Chosen } from "./chosen.js";
 import { across, region, shortly, slipping, touchBoxes, touchLine, upwards } from "./drawing.js";
 import { Inset } from "./inset.js";

@@ -5,7 +5,7 @@ import { followClock } from "../figures/seeking.js";
 import { followLook, lifeOf, report } from "../life.js";
 import { timeOf } from "../motion/clock.js";
 import { nameOf, ROLLS } from "../regimes.js";
-import { dress, part } from "../widgets/parts.js";
+import { dress, part } from "../parts.js";
 import { Hand } from "./hand.js";
 import { Picture } from "./picture.js";
 import { limitsFrom } from "./reading.js";

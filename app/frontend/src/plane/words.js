@@ -1,5 +1,5 @@
 // Words in a drawing: typeset, and placed beside what they name where they cover nothing.
-import { drawn } from "../widgets/parts.js";
+import { drawn } from "../parts.js";
 
 const WIDE = 0.53, LINE = 1.25, ASCENT = 0.95, BELOW = 0.2; // of the font size: mean width of a letter, from line to line, above the base line, below a line with an index
 

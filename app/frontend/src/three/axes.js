@@ -1,7 +1,7 @@
 // The box around a surface: floor and back walls with a grid, and ticks and names on the edges nearest to the camera.
 import * as THREE from "three";
 import { local, stepOf } from "../data.js";
-import { ticks } from "../lab/curves.js";
+import { ticks } from "../motion/curves.js";
 /** @import { Labels } from "./labels.js" */
 /** @import { Stage } from "./stage.js" */
 

@@ -2,7 +2,7 @@
 // is in sight where the pointer is; in Roll, only a paused top has it.
 import { Vector3 } from "three";
 import { local } from "../data.js";
-import { dress } from "../widgets/parts.js";
+import { dress } from "../parts.js";
 /** @import { Body } from "./body.js" */
 /** @import { Labels } from "./labels.js" */
 /** @import { Player } from "../motion/player.js" */

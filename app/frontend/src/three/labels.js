@@ -2,7 +2,7 @@
 import { Vector3 } from "three";
 import { penOf } from "../data.js";
 import { paintWords } from "../paint.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 /** @import { Stage } from "./stage.js" */
 
 const projected = new Vector3();

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { bufferOf, likeAScreen } from "../borrowed.js";
 import { atEnd } from "../life.js";
-import { dress, part } from "../widgets/parts.js";
+import { dress, part } from "../parts.js";
 import { isHandOn } from "./hand.js";
 import { letGo } from "./scene.js";
 

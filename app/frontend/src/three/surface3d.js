@@ -10,7 +10,7 @@ import { wordOf } from "../regimes.js";
 import { followScene } from "./scene.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "../style.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 import { SurfaceHand } from "./surface_hand.js";
 import { dot, SurfaceLines } from "./surface_lines.js";
 import { Grid, SurfaceMesh } from "./surface_mesh.js";

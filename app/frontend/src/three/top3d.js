@@ -1,11 +1,11 @@
 // The top on its table. Python sends every pose, path and arrow as numbers: there is no physics here.
-import { Bar } from "../widgets/bar.js";
+import { Bar } from "./bar.js";
 import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
 import { coalesce, float32, tidy } from "../data.js";
 import { Eye } from "./eye.js";
 import { Flick } from "./flick.js";
-import { renderFlat } from "../figures/flat.js";
+import { renderFlat } from "./flat.js";
 import { Ghost } from "./ghost.js";
 import { Handle } from "./handle.js";
 import { Impulse } from "./impulse.js";
@@ -14,7 +14,7 @@ import { Measured } from "./measured.js";
 import { colourOf, wordOf } from "../regimes.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "../style.js";
-import { part } from "../widgets/parts.js";
+import { part } from "../parts.js";
 import { TopScene } from "./top_scene.js";
 /** @import { Stage } from "./stage.js" */
 

@@ -1,7 +1,7 @@
 // A text to copy, and a button that copies it, even on a page without https, where the browser's own way is forbidden.
 import { frame } from "../controls/frame.js";
 import { follow } from "../life.js";
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 
 const STYLE = `:host > div { width: 100%; } .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start; }
 textarea { flex: 1 1 0; min-width: 0; font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1px solid var(--line-2); border-radius: 6px; color: inherit; background: none; resize: none; }

@@ -1,5 +1,5 @@
 // The code to copy, and how it would look; or why no other page may show this one.
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 import { copyButton } from "./copy.js";
 import { frame, whenSeen } from "../controls/frame.js";
 import { follow } from "../life.js";

@@ -4,7 +4,7 @@ import { renderStretch } from "../controls/stretch.js";
 import { frame, whenSeen } from "../controls/frame.js";
 import { atEnd } from "../life.js";
 import { progress } from "../controls/style.js";
-import { part, say } from "./parts.js";
+import { part, say } from "../parts.js";
 import { HIGH, labInSight, timesOf, WIDE } from "../motion/filmed.js";
 import { modelOf } from "../stand_in.js";
 import { save } from "./saving.js";

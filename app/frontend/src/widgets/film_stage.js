@@ -1,7 +1,7 @@
 // A top that moves once, on its own clock: a button that plays it, the time and the tilt; for a measured film, also the
 // axis as seen on it.
-import { Top } from "../lab/top.js";
-import { icon, part, say } from "./parts.js";
+import { Top } from "../three/top.js";
+import { icon, part, say } from "../parts.js";
 import { coalesce, float32 } from "../data.js";
 import { followClock, seek } from "../figures/seeking.js";
 import { frame } from "../controls/frame.js";

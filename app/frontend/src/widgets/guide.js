@@ -3,7 +3,7 @@
 import { debounce } from "../data.js";
 import { atEnd, follow, lifeOf } from "../life.js";
 import { find } from "./finding.js";
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 import { guideStyle } from "../style.js";
 import { Tour, tourFrame } from "./tour.js";
 

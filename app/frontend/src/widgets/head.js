@@ -1,7 +1,7 @@
 // The row at the top of the page: the top, the tabs, the level, undo, redo, Share, and a menu with everything else.
 import { ask } from "../data.js";
 import { follow, isDark, lifeOf, onLook } from "../life.js";
-import { Choice, part } from "./parts.js";
+import { Choice, part } from "../parts.js";
 import { listening } from "../motion/heard.js";
 import { headStyle } from "./head_style.js";
 

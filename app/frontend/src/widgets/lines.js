@@ -4,7 +4,7 @@ import { local, rowBefore } from "../data.js";
 import { followClock } from "../figures/seeking.js";
 import { atEnd, lifeOf } from "../life.js";
 import { style } from "./lines_style.js";
-import { part, typeset } from "./parts.js";
+import { part, typeset } from "../parts.js";
 
 const DRAWN_MS = 200; // ms between two updates of the numbers
 

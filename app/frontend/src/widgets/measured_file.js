@@ -3,7 +3,7 @@
 import { colours } from "../colours.js";
 import { fill } from "../data.js";
 import { lifeOf } from "../life.js";
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 
 const STYLE = `
   .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink) }

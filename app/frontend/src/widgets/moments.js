@@ -2,8 +2,8 @@
 import { followClock, seek } from "../figures/seeking.js";
 import { frame } from "../controls/frame.js";
 import { follow } from "../life.js";
-import { latest } from "../lab/curves.js";
-import { part } from "./parts.js";
+import { latest } from "../motion/curves.js";
+import { part } from "../parts.js";
 
 const style = `
 ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; }

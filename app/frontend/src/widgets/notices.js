@@ -1,7 +1,7 @@
 // Messages over the whole page: the server could not do what was requested, will do it later, or is gone.
 import { colours } from "../colours.js";
 import { atEnd, lifeOf } from "../life.js";
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 
 const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white", background: colours.ink,
   font: "14px/1.4 var(--family, system-ui, sans-serif)", boxShadow: "0 2px 8px #0000004d" };

@@ -3,7 +3,7 @@ import { colours } from "../colours.js";
 import { saveButton } from "../controls/button.js";
 import { local, penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 import { save } from "./saving.js";
 
 const LINE = 1.5; // line height of a caption, in units of the font size

@@ -1,4 +1,4 @@
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 
 // Saves a file.
 const KEPT_MS = 60000;

@@ -6,7 +6,7 @@ import { coalesce, fill, set, tidy } from "../data.js";
 import { clamp } from "../figures/curves.js";
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { atEnd, onLook } from "../life.js";
-import { drawn, dress, part } from "./parts.js";
+import { drawn, dress, part } from "../parts.js";
 
 const REACH = { mouse: 16, touch: 26 }, RING = 8; // px
 const COLUMN = 30, STEP = 24, HEAD = 7; // px: from the body to the first of the heights, between two of them; of an arrow

@@ -1,7 +1,7 @@
 // The first part of Share: the link, a button to copy it, and its QR code, which can fill the screen of a lecture hall.
 import { copyButton } from "./copy.js";
 import { follow, lifeOf } from "../life.js";
-import { part } from "./parts.js";
+import { part } from "../parts.js";
 
 const CODE = "background: white; padding: 0; line-height: 0";
 const STYLE = `

@@ -1,6 +1,6 @@
 // A top in 3-D for the Lab: it has no bar of its own, and its model is created here.
-import { renderTop3D } from "../three/top3d.js";
-import { part } from "../widgets/parts.js";
+import { renderTop3D } from "./top3d.js";
+import { part } from "../parts.js";
 import { atEnd } from "../life.js";
 import { modelOf } from "../stand_in.js";
 
@@ -15,7 +15,7 @@ export const NOTHING = { ...Object.fromEntries(SHOWS.map((name) => [name, false]
 
 export class Top {
   /**
-   * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time @param {AbortSignal} of.life
+   * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("../lab/time.js").Time} of.time @param {AbortSignal} of.life
    * @param {number} of.away distance of the camera, in units of the distance at which the whole top just fits
    * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what dragging the axis does
    * @param {Hand} [of.flick] what a flick on the top does

@@ -1,5 +1,5 @@
 // What every time line has: a button that plays, a plot on which a press sets the time, and a mark of the present time.
-import { drawn, icon, part, say } from "../widgets/parts.js";
+import { drawn, icon, part, say } from "../parts.js";
 
 export const LEFT = 38, RIGHT = 12, FOOT = 22; // px around the plot
 
@@ -21,7 +21,7 @@ export const times = (texts, digits) => (/** @type {number} */ t) =>
   say(texts, t ? "{t}" : "{t} s", { t: [t, t ? (digits ?? (t % 1 ? 1 : 0)) : 0] });
 
 export class TimeLine {
-  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {{ label: string, step: number | "any" }} range */
+  /** @param {Record<string, any>} texts @param {import("../lab/time.js").Time} time @param {{ label: string, step: number | "any" }} range */
   constructor(texts, time, { label, step }) {
     this.texts = texts;
     this.time = time;

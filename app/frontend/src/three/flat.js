@@ -1,14 +1,14 @@
 // The top without WebGL: seen from the side, so that its tilt is true to scale, and played by the same bar.
 import { Vector3 } from "three";
-import { Bar } from "../widgets/bar.js";
+import { Bar } from "./bar.js";
 import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
 import { coalesce, float32, local, penOf } from "../data.js";
 import { centreOf, emptyPose } from "../motion/frames.js";
 import { wordOf } from "../regimes.js";
 import { report } from "../life.js";
-import { followScene } from "../three/scene.js";
-import { part } from "../widgets/parts.js";
+import { followScene } from "./scene.js";
+import { part } from "../parts.js";
 
 const LEAST_REACH = 1.6, BELOW = 0.6; // R: the least height shown above O, and what is shown below the table
 const WIDTH = 640; // px: width of a printed picture if the one on the page has no size

@@ -1,5 +1,5 @@
 // Elements of HTML and SVG, a group of buttons of which one is chosen, and numbers in words.
-import { fill } from "../data.js";
+import { fill } from "./data.js";
 
 const DRAWING = "http://www.w3.org/2000/svg";
 

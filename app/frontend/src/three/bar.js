@@ -2,7 +2,7 @@
 import { colours } from "../colours.js";
 import { fill, local } from "../data.js";
 import { follow } from "../life.js";
-import { icon, part } from "./parts.js";
+import { icon, part } from "../parts.js";
 /** @import { Player } from "../motion/player.js" */
 
 const SPEEDS = [1, 2, 4, 8, 16, 32, 64];
