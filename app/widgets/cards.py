@@ -4,7 +4,6 @@ import panel as pn
 
 from app.widgets.typeset import typeset
 
-LINK = "color-mix(in srgb, var(--link) 60%, var(--ink))"  # legible on light and on dark
 # The stage at the right of the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 STAGED = """
@@ -42,8 +41,9 @@ progress { appearance: none; width: min(100%, 240px); height: 6px; border: 0; bo
   background: var(--rule) } progress::-webkit-progress-bar { background: var(--rule) }
 progress::-webkit-progress-value { background: var(--ink) }
 progress::-moz-progress-bar { background: var(--ink) }
-a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
-""".replace("LINK", LINK)
+a, summary { color: var(--link) } summary { cursor: pointer; padding: 4px 0 }
+li > a { display: inline-block; padding: 5px 0 }
+"""
 
 WRAPS, ROOM = {"display": "flex", "flex-flow": "row wrap"}, {"gap": "24px", "padding": "12px 24px 24px"}
 

@@ -41,7 +41,7 @@ export const style = `
 .bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: var(--focus); height: 36px; margin: 0; cursor: pointer; }
 .time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: var(--pill); color: var(--scene-ink);
   font-variant-numeric: tabular-nums; white-space: nowrap; box-shadow: 0 1px 3px #0002; pointer-events: none; }
-.time sup, .scales sup { font-size: 75%; line-height: 0; }
+.time sup, .scales sup { font-size: 75%; line-height: 0; } .scales i { font-family: Georgia, serif; }
 .bar .shows { display: flex; flex-wrap: wrap; gap: 5px; }
 .bar .shows label { display: inline-flex; align-items: center; gap: 5px; padding: 0 8px; height: 26px; border-radius: 999px; font-size: calc(12px * var(--type, 1));
   border: 1px solid var(--line); cursor: pointer; white-space: nowrap; user-select: none; }

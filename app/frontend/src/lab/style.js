@@ -51,6 +51,7 @@ const framed = `
 `;
 
 const stage = `
+.lab:not([data-table]) > :not(.stage), .lab:not([data-table]) .stage > * { visibility: hidden; } /* no run has arrived */
 .lab.old .top { opacity: .38; }
 @container (max-width: 1180px) { .top { top: 20px; } }
 @container (max-width: 700px) { .top { top: 44px; } }
