@@ -2,11 +2,10 @@
 
 import ast
 
-from bokeh.events import DoubleTap, Tap
 from bokeh.models import CustomJS
 from text_files import APP, sources, tree, wrong_in
 
-from app.widgets.plots import on_click, on_pointer, plain
+from app.widgets.plots import on_pointer, plain
 
 LISTENS = "widgets/plots.py"  # where a figure is made to listen to clicks
 NAMES = "frontend/src/figures/seeking.js"  # where gestures are named
@@ -22,15 +21,6 @@ def test_no_figure_listens_to_the_first_of_two_clicks_alone():
 def test_the_browser_takes_the_second_click_for_a_click():
     scripts = [path for path in (APP / "frontend" / "src").rglob("*.js") if "event_name" in path.read_text("utf-8")]
     assert scripts == [APP / NAMES]
-
-
-def test_a_figure_hears_both_clicks_in_python():
-    fig, heard = plain(), []
-    on_click(fig, lambda event: heard.append(event.x))
-    for kind, x in ((Tap, 0.3), (DoubleTap, 0.5)):
-        fig._trigger_event(kind(fig, x=x))
-    assert heard == [0.3, 0.5]
-    assert fig.subscribed_events == {"tap", "doubletap"}  # which the browser sends, and the server accepts
 
 
 def test_a_figure_hears_both_clicks_in_the_browser():

@@ -4,7 +4,6 @@ import panel as pn
 
 from app.widgets.typeset import typeset
 
-LINK = "color-mix(in srgb, var(--link) 60%, var(--ink))"  # legible on light and on dark
 # The stage at the right of the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 STAGED = """
@@ -26,21 +25,14 @@ FIRST = """
 @media (max-width: 700px) { :host { height: 330px !important } }
 @media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
 """.replace("HIGH", "clamp(390px, 100vh - HEAD - 24px, 52vw)")
-# A name, a note, and an error, wherever they are.
-NOTES = """
-.name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
-.name sub { font-size: 0.8em } .note { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
-.alert { font-weight: 500 }
-.alert::before { content: "!" / ""; display: inline-grid; place-items: center; width: 1.5em; height: 1.5em;
-  margin-right: 6px; border-radius: 50%; background: var(--ink); color: var(--card) }
-.note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
-.name[title], .note [title] { cursor: help }
-"""
 TYPE = """
 :host { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink) }
 h2 { font-size: calc(14px * var(--type, 1)); margin: 0; font-weight: 600 }
-i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
-.key { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
+.key, .note { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
+.alert { font-weight: 600 }
+.alert::before { content: "!" / ""; display: inline-grid; place-items: center; width: 1.5em; height: 1.5em;
+  margin-right: 6px; border-radius: 50%; background: var(--ink); color: var(--card) }
+i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.75em; line-height: 0 }
 .key span { white-space: nowrap } [title] { cursor: help }
 .axis { text-align: center } b { font-weight: 600 }
 .quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
@@ -49,8 +41,9 @@ progress { appearance: none; width: min(100%, 240px); height: 6px; border: 0; bo
   background: var(--rule) } progress::-webkit-progress-bar { background: var(--rule) }
 progress::-webkit-progress-value { background: var(--ink) }
 progress::-moz-progress-bar { background: var(--ink) }
-a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
-""".replace("LINK", LINK) + NOTES  # fmt: skip
+a, summary { color: var(--link) } summary { cursor: pointer; padding: 4px 0 }
+li > a { display: inline-block; padding: 5px 0 }
+"""
 
 WRAPS, ROOM = {"display": "flex", "flex-flow": "row wrap"}, {"gap": "24px", "padding": "12px 24px 24px"}
 

@@ -12,7 +12,6 @@ from bokeh.models import (
     AllLabels,
     BasicTickFormatter,
     CDSView,
-    CustomJS,
     CustomJSHover,
     CustomJSTickFormatter,
     Span,
@@ -76,18 +75,9 @@ def pane(fig, **styles):
     return pn.pane.Bokeh(fig, sizing_mode=fig.sizing_mode, margin=0, styles=styles, **height)
 
 
-def on_click(fig, act):
-    """Calls act, a function of an event or a callback in the browser, for each click in a figure, however soon after
-    the one before."""
-    listen = fig.js_on_event if isinstance(act, CustomJS) else fig.on_event
-    for event in CLICKS:
-        listen(event, act)
-
-
 def on_pointer(fig, act, *more):
     """Runs a callback in the browser for each click and drag in a figure, and for more events of Bokeh."""
-    on_click(fig, act)
-    for event in (*DRAG, *more):
+    for event in (*CLICKS, *DRAG, *more):
         fig.js_on_event(event, act)
 
 

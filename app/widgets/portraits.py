@@ -79,21 +79,19 @@ class Phase(Portrait):
     axes = "<i>θ</i> (rad)", "<i>θ̇</i> (<i>g</i>/<i>R</i>)<sup>½</sup>"
 
     def below(self):
-        self.levels = ColumnDataSource({"x": [], "y": [], "colour": [], "dash": []})
-        draw(self.figure, MultiLine, xs="x", ys="y", source=self.levels, line_color="colour", line_dash="dash",
-             line_width=1.3, line_alpha=0.8)  # fmt: skip
+        self.levels = [ColumnDataSource({"x": [], "y": []}) for _ in range(3)]
+        kinds = (FAINT, "solid"), (COLOURS["friction"], "dashed"), (COLOURS["normal"], "dashed")
+        for source, (colour, dash) in zip(self.levels, kinds, strict=True):
+            draw(self.figure, Line, "x", "y", source=source, line_color=colour, line_dash=dash, line_width=1.3,
+                 line_alpha=0.8)  # fmt: skip
 
     def draw(self, scene):
         motion, loops = scene.nutation, scene.levels
         closed = [np.append(np.concatenate([(theta, rate), (theta[::-1], -rate[::-1])], axis=1), [[np.nan]] * 2, axis=1)
                   for theta, rate in loops]  # fmt: skip
-        x, y = zip(np.concatenate(closed[:-2], axis=1), *closed[-2:], strict=True)  # few arrays are sent faster
-        self.levels.data = {
-            "x": list(x),
-            "y": list(y),
-            "colour": [FAINT, COLOURS["friction"], COLOURS["normal"]],
-            "dash": ["solid", "dashed", "dashed"],
-        }
+        groups = np.concatenate(closed[:-2], axis=1), *closed[-2:]  # few arrays are sent faster
+        for source, (x, y) in zip(self.levels, groups, strict=True):
+            source.data = {"x": x, "y": y}
         self.put(motion, motion.theta, motion.omega[:, 0])
         outermost, fastest = loops[-1]
         edge = max(fastest.max(), motion.omega[:, 0].max())

@@ -68,6 +68,9 @@ test("the words of events are placed where there is room, short where there is l
   assert.deepEqual([falls.word, falls.side], ["starts to fall 4.5 s", "end"]);
   const two = placed([[80, "stands 1.5 s", "stands 1.5 s"], [187, "falls 4.5 s", "falls 4.5 s"], [224, "off its stem 5.6 s", "off its stem 5.6 s"]], 0, 340, wide);
   assert.deepEqual(two.map(({ side, row }) => [side, row]), [["start", 0], ["end", 1], ["start", 0]]); // a second row if one has no room
+  const phone = [[64, "over 1.0 s"], [77, "stands 1.5 s"], [154, "falls 4.5 s"], [229, "tips back 7.3 s"], [304, "rolls 10.0 s"]].map(([x, word]) => [x, word, word]);
+  const said = placed(phone, -6, 358, wide).map(({ word }) => word);
+  assert.ok(["over 1.0 s", "stands 1.5 s", "falls 4.5 s"].every((word) => said.includes(word))); // what it is for comes first
   assert.equal(placed([[5, "a long word", "short one"], [9, "a long word", "short one"], [13, "a long word", "short one"]], 0, 20, wide).length, 0);
 });
 

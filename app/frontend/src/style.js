@@ -5,7 +5,7 @@ import { part } from "./parts.js";
 export const style = `
 :host { --line: color-mix(in srgb, currentColor 18%, transparent); }
 .tippe { display: flex; flex-direction: column; width: 100%; height: 100%; min-height: 300px; box-sizing: border-box;
-  font: calc(13px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); }
+  font: calc(14px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); }
 .picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene); }
 .picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
@@ -13,12 +13,12 @@ export const style = `
 .picture:not([data-drawn]) .labels { visibility: hidden; }
 .labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: var(--scene-ink); }
 .labels span { position: absolute; left: 0; top: 0; white-space: nowrap; will-change: transform; }
-.labels .vector { font: italic 600 calc(17px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif;
+.labels .vector { font: italic 600 calc(18px * var(--type, 1))/1 Georgia, serif;
   text-shadow: 0 0 3px var(--halo), 0 0 3px var(--halo), 0 0 5px var(--halo); }
-.labels .tick { font-size: calc(11px * var(--type, 1)); font-variant-numeric: tabular-nums; color: var(--scene-faint); }
-.labels .axis { font: calc(15px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
-.labels .axis :is(sub, sup) { font-size: 70%; line-height: 0; }
-.labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo), 0 0 4px var(--halo); }
+.labels .tick { font-size: calc(12px * var(--type, 1)); font-variant-numeric: tabular-nums; color: var(--scene-faint); }
+.labels .axis { font: calc(14px * var(--type, 1))/1 Georgia, serif; }
+.labels .axis :is(sub, sup) { font-size: 75%; line-height: 0; }
+.labels .point { font: 600 calc(14px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo), 0 0 4px var(--halo); }
 .labels .handle { width: 24px; height: 24px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid var(--accent);
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
 @media (hover: hover) { .labels .handle::before { content: ""; position: absolute; inset: -24px; border-radius: 50%; } } /* reached without aiming */
@@ -32,7 +32,7 @@ export const style = `
 .verdict { position: absolute; left: 12px; bottom: 44px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;
   border-radius: 999px; font-weight: 600; background: var(--pill); color: var(--scene-ink); box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .verdict::before { content: ""; width: 10px; height: 10px; border-radius: 50%; background: var(--verdict); }
-.scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: calc(11px * var(--type, 1)); color: var(--scene-faint); pointer-events: none; }
+.scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: calc(12px * var(--type, 1)); color: var(--scene-faint); pointer-events: none; }
 .bar { flex: none; display: flex; flex-wrap: wrap; align-items: center; gap: 6px 8px; padding: 8px 2px 0; }
 .bar :is(button, select) { font: inherit; color: inherit; background: transparent; border: 0; border-radius: 6px; min-height: 36px; min-width: 36px; padding: 0 6px; cursor: pointer; display: inline-grid; place-items: center; }
 .bar :is(button, select):hover { background: color-mix(in srgb, currentColor 8%, transparent); } .bar select option { background: var(--card); }
@@ -41,7 +41,7 @@ export const style = `
 .bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: var(--focus); height: 36px; margin: 0; cursor: pointer; }
 .time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: var(--pill); color: var(--scene-ink);
   font-variant-numeric: tabular-nums; white-space: nowrap; box-shadow: 0 1px 3px #0002; pointer-events: none; }
-.time sup, .scales sup { font-size: 75%; line-height: 0; }
+.time sup, .scales sup { font-size: 75%; line-height: 0; } .scales i { font-family: Georgia, serif; }
 .bar .shows { display: flex; flex-wrap: wrap; gap: 5px; }
 .bar .shows label { display: inline-flex; align-items: center; gap: 5px; padding: 0 8px; height: 26px; border-radius: 999px; font-size: calc(12px * var(--type, 1));
   border: 1px solid var(--line); cursor: pointer; white-space: nowrap; user-select: none; }
@@ -53,7 +53,7 @@ export const style = `
 .key { flex: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 6px 2px 0; font-size: calc(12px * var(--type, 1)); color: var(--faint); }
 .key span::before { content: ""; display: inline-block; width: 16px; height: 3px; margin: 0 6px 3px 0; vertical-align: middle;
   background: var(--swatch); }
-.key sub { font-size: 70%; line-height: 0; }
+.key sub { font-size: 75%; line-height: 0; }
 @media (max-width: 700px) {
   .scales { display: none; }
   .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { flex: 1 1 40px; min-width: 40px; } .bar select { max-width: 104px; } .bar .view { display: none; }
@@ -80,7 +80,7 @@ button:focus-visible { outline: 2px solid currentColor; outline-offset: 2px; } h
 dialog, .stop { color: var(--ink); background: var(--card); border: 1px solid var(--control-line); border-radius: 10px; padding: 14px 18px;
   box-shadow: 0 6px 24px #0006; box-sizing: border-box; max-width: min(560px, calc(100vw - 28px)); }
 dialog::backdrop { background: #0008; }
-h2 { font-size: 1.1em; margin: 0 0 6px; outline-offset: 4px; } h3 { font-size: 1em; margin: 14px 0 4px; }
+h2 { font-size: calc(18px * var(--type, 1)); margin: 0 0 6px; outline-offset: 4px; } h3 { font-size: 1em; margin: 14px 0 4px; }
 table { border-collapse: collapse; margin: 0 0 12px; } th, td { text-align: left; padding: 4px 14px 4px 0; vertical-align: top; font-weight: normal; } th { font-weight: 600; }
 .stop { position: fixed; z-index: 3000; width: min(320px, calc(100vw - 28px)); } .stop p { margin: 0 0 10px; }
 .stop div { display: flex; align-items: center; gap: 8px; } .stop .count { flex: 1; color: var(--faint); }

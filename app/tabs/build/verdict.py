@@ -18,7 +18,7 @@ from tippe_core import TopError
 
 OLD = """
 .old { opacity: .6 } .verdict { min-height: calc(110px * var(--type, 1)) }
-h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2 }
+h3 { margin: 8px 0 4px; font-size: calc(28px * var(--type, 1)); font-weight: 600; line-height: 1.2 }
 """
 
 TURNED = ("stands", "inverted")  # of these the least spin is said

@@ -7,7 +7,8 @@ import numpy as np
 from app.text import say, written
 
 WIDTH = 480  # px: that of the column on a wide page; on a phone the letters are enlarged, as the figure shrinks
-LETTERS = "svg { font-size: 12px } @media (max-width: 700px) { svg { font-size: 16px } }"
+LETTERS = """svg { font-size: 12px } [font-style=italic] { font-family: Georgia, serif }
+@media (max-width: 700px) { svg { font-size: 16px } }"""
 LINE, PALE, RULE = "var(--ink)", "var(--control-line)", "var(--rule)"
 SHEET = "color-mix(in srgb, #9a7434 26%, var(--card))"
 
@@ -95,8 +96,8 @@ def waterfall(shown, end, most):
     drawing.path(*place(shown.lift.theta_steady, shown.part), pen(LINE, 1.5, DASHED))
     lifts = np.where(np.isfinite(shown.lift.E), shown.lift.theta_outer, np.nan)
     drawing.path(*place(lifts, shown.part), pen("var(--normal)"))
-    drawing.text(*place(0, 0.5), K_J, 'text-anchor="end" font-size="1.15em"', shift=(-8, 0))
-    drawing.text(*place(end, 0), THETA, 'font-size="1.15em"', shift=(24, 17))
+    drawing.text(*place(0, 0.5), K_J, 'text-anchor="end"', shift=(-8, 0))
+    drawing.text(*place(end, 0), THETA, "", shift=(24, 17))
     return drawing.svg
 
 
@@ -104,7 +105,7 @@ def plane(shown, mu_s):
     """Fig. 6 of one top, a family.Region: K_J over all tilts, each curve with its name beside it."""
     end, pole = np.pi, shown.pole
     drawing = Drawing(say("roll.figures.plane"), 282, (0, end), (0, 1.06), (34, 8, 10, 40))
-    drawing.text(0, 1.06, K_J, 'font-size="1.15em" text-anchor="end"', shift=(-12, 8))
+    drawing.text(0, 1.06, K_J, 'text-anchor="end"', shift=(-12, 8))
     for theta in (0, 1, 2, 3):
         drawing.text(theta, 0, written(theta, "g"), 'text-anchor="middle"', shift=(0, 18))
     drawing.text(end, 0, f"{THETA} (rad)", 'text-anchor="end"', shift=(0, 36))

@@ -13,7 +13,7 @@ from app.model.lab.nudged import hits, nudged
 from app.model.runs import LATER, Run
 from app.state import asked
 from app.state.names import PANELS
-from app.tabs.lab.figures import LEDGER, Map, Times, Well
+from app.tabs.lab.figures import LEDGER, Times, Well
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import ball_words, run_words, scatter_words, table_words
 from app.text import say, written
@@ -23,6 +23,7 @@ from app.widgets.forms import Choice
 from app.widgets.moments import Moments
 from app.widgets.plots import pane
 from app.widgets.times import ROWS, key, row
+from app.widgets.tops_map import TopsMap
 
 ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
 AUTO, WHOLE = "auto", {"height": "max-content", "max-height": "none"}
@@ -176,22 +177,16 @@ class Research(param.Parameterized):
         return [title, happened, scatters, kept, of_run, self.rolling.kept], {"lab": show}
 
     def _make_ends(self):
-        well, tops, says = Well(), Map(self._pick, self._choose), words()
+        well, says = Well(), words()
+        tops = TopsMap(lambda top: self._choose(top.name), self._pacer.ask, height=420)
 
         def show(scene):
             well.show(scene)
-            tops.show(scene.start.top)
+            tops.show(self._lab.explorer.scene)
             says.object = ball_words(scene)
-
-        def high(figure, height):
-            return column(pane(figure), height=height)
 
         def head(name):
             return words(f'<h2>{say(f"planes.cards.{name}")}</h2><div class="key">{say(f"planes.keys.{name}")}</div>')
 
-        content = [head("well"), high(well.figure, 240), says, head("map"), high(tops.figure, 360)]
+        content = [head("well"), column(pane(well.figure), height=240), says, head("map"), tops]
         return content, {"lab": show}
-
-    def _pick(self, a, ratio):
-        """Asks for the top with this a and I1/I3, and the present I3."""
-        self._pacer.ask(a=a, I1=ratio * self._lab.explorer.scene.top.I3)

@@ -55,7 +55,7 @@ def of_run(asked, across, up, found):
         times.append(say("maps.run.stem", time=found.time_stem))
     if found.hops:
         times.append(say("maps.run.hops", hops=found.hops))
-    return f'<div role="status"><b style="font-size: {px(17)}">{says}</b><br>{" ".join(times)}</div>'
+    return f'<div role="status"><b style="font-size: {px(18)}">{says}</b><br>{" ".join(times)}</div>'
 
 
 def of_worst(level):

@@ -60,7 +60,7 @@ export const numbers = `
 .ctl input::-moz-range-thumb { box-sizing: border-box; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); }
 .bad .num { border-bottom: 3px solid var(--ink); font-weight: 600; }
 .wrong { display: flex; gap: 8px; margin-top: 4px; line-height: 1.4; }
-.wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
+.wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: var(--t-s); }
 `;
 
 // A stage with tops side by side, and below it a line of time.

@@ -5,7 +5,7 @@ import { part } from "../parts.js";
 const GAP = 14, EDGE = 6; // px from the pointer or from what must stay visible, and from the edge of the window
 const STYLE = {
   position: "fixed", zIndex: 1500, pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px", borderRadius: "6px",
-  font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink)", background: "var(--card)", border: "1px solid var(--faint)",
+  font: "calc(12px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink)", background: "var(--card)", border: "1px solid var(--faint)",
 };
 
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */

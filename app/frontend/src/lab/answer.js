@@ -172,9 +172,7 @@ export class Answer {
       drawn("text", { class: `word halo ${kind}`, x: this.x(t(share)), y: height }, text),
       ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height, dy: "1.3em" }, more)] : []));
     if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin, "", "washed");
-    const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
-    if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by, "");
-    const long = 112 / (this.right - LEFT);
+    const long = 112 / (this.right - LEFT), wide = 130 / (this.right - LEFT);
     const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > LINE);
     const free = [0.4, 0.3, 0.2, 0.08, 0.02].find(isFree), stands = free ?? 0.4;
     const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
@@ -182,6 +180,9 @@ export class Answer {
     const isHigh = this.bottom - at(stands, HEIGHT) > ROOM && this.bottom - at(stands + long, HEIGHT) > ROOM;
     // above the area of the height; if the energy leaves no room there, inside it; if it is too low, above both
     const [height, kind] = free ? [over(HEIGHT), "washed"] : isHigh ? [this.bottom - 10, "inside"] : [over(ENERGY), ""];
+    const under = (share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY), kind ? Infinity : height - LINE);
+    const lost = [0.42, 0.3, 0.55].find((share) => under(share) - y(start) > 2 * ROOM);
+    if (lost) put(lost, (under(lost) + y(start)) / 2, said.heat, said.heat_by, "");
     put(stands, height, say(texts, text, { least: [least, 0], most: [most, 0] }), "", kind);
     return [
       ...found,

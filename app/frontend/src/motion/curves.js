@@ -87,8 +87,10 @@ export function tempo(events, t, end) {
   return Math.min(2 ** Math.max(Math.ceil(Math.log2((to - from) / LONG)), 0), FASTEST);
 }
 
+const SPARE = 4; // px: words are narrower than reckoned
+
 // Where the words of events go, to the left or right of their lines: in full if there is room for all, otherwise in
-// short, and in two rows if one has no room for all.
+// short, in two rows if one has no room for all, and if that is too little, the first ones without regard to the others.
 /**
  * @param {[x: number, word: string, short: string][]} lines
  * @param {number} left @param {number} right
@@ -98,6 +100,7 @@ export function tempo(events, t, end) {
 export function placed(lines, left, right, wide) {
   const [whole, short] = [1, 2].map((i) => lines.map((line) => /** @type {[number, string]} */ ([line[0], line[i]])));
   const ways = [1, 2].flatMap((rows) => [whole, lines, short].map((said) => beside(said, left, right, wide, rows)));
+  ways.push(beside(short, left, right, wide, 2, true));
   return ways.reduce((best, found) => (found.length > best.length ? found : best));
 }
 
@@ -107,19 +110,24 @@ export function placed(lines, left, right, wide) {
  * @param {number} left @param {number} right
  * @param {(word: string) => number} wide
  * @param {number} rows
+ * @param {boolean} [isFirst] whether the first ones may take the room of later lines
  */
-function beside(lines, left, right, wide, rows) {
-  const taken = Array.from({ length: rows }, () => lines.map(([x]) => [x - 1, x + 1]));
-  const isFree = (row, from, to) => from >= left && to <= right && taken[row].every(([a, b]) => to < a || from > b);
+function beside(lines, left, right, wide, rows, isFirst) {
+  const taken = Array.from({ length: rows }, () => (isFirst ? [] : lines.map(([x]) => [x - 1, x + 1])));
+  const said = Array.from({ length: rows }, () => /** @type {number[][]} */ ([]));
+  const isFree = (row, from, to, x) => from >= left && to <= right && taken[row].every(([a, b]) => to < a || from > b)
+    && said.slice(row).flat().every(([a, b]) => x < a || x > b - SPARE); // a line goes down from the row of its word
   return lines.flatMap(([x, ...words]) => {
     const ways = taken.flatMap((_, row) => words.flatMap((word) => ["start", "end"].map((side) => {
       const width = wide(word), from = side === "start" ? x + 3 : x - 4 - width;
       return { x, word, side: /** @type {"start" | "end"} */ (side), row, from, to: from + width + 1 };
     })));
-    const way = ways.find(({ row, from, to }) => isFree(row, from, to));
+    const way = ways.find(({ row, from, to }) => isFree(row, from, to, x));
     if (!way) return [];
     const { row, from, to, word, side } = way;
     taken[row].push([from, to]);
+    said[row].push([from, to]);
+    for (const below of taken.slice(row)) below.push([x - 1, x + 1]);
     return [{ x, word, side, row }];
   });
 }

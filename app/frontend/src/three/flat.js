@@ -108,7 +108,7 @@ class Flat {
     centreOf(pose, model.a, centre);
     drawBody(pen, float32(model.profile), { x: width / 2, y: table - centre.z * R, R, tilt, turn: psi, edge: look.edge });
     pen.fillStyle = look.ink;
-    pen.font = "600 15px system-ui, sans-serif";
+    pen.font = "600 14px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.fillText(`θ = ${local(((180 * tilt) / Math.PI).toFixed(1))}°`, width / 2, 24);
     this.verdict = wordOf(pose.regime, model.texts.regimes);

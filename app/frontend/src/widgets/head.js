@@ -30,20 +30,19 @@ class Head {
     this.toy = part("select", { class: "toy", "aria-label": texts.toy, onchange: () => this.ask("toy", this.toy.value) });
     this.tabs = new Several("tab", texts.tabs, (tab) => this.go(this.roomOf("tabs", tab)));
     this.rooms = new Several("radio", texts.rooms, (room) => this.goBelow(room));
-    this.levels = [0, 1].map(() => new Several("radio", texts.level, (level) => this.goLevel(level)));
-    this.steps = [0, 1].map(() => ["undo", "redo"].map((name) =>
-      part("button", { type: "button", class: "icon", "aria-label": texts[name], title: texts[name], onclick: () => this.ask(name) }, texts.signs[name])));
-    this.shares = [0, 1].map(() => part("button", { type: "button", onclick: () => this.ask("share") }, texts.share));
+    this.levels = new Several("radio", texts.level, (level) => this.goLevel(level));
+    this.steps = ["undo", "redo"].map((name) =>
+      part("button", { type: "button", class: "icon", "aria-label": texts[name], title: texts[name], onclick: () => this.ask(name) }, texts.signs[name]));
+    this.share = part("button", { type: "button", onclick: () => this.ask("share") }, texts.share);
     /** @type {any} */
     this.languages = null;
     /** @type {{ name: string, box: HTMLInputElement, element: HTMLElement }[]} */
     this.switches = [];
-    this.more = part("button", { type: "button", class: "icon", "aria-label": texts.more, "aria-expanded": "false", onclick: () => this.open(this.menu.hidden) }, "⋯");
-    this.session = [part("span", { class: "wide" }, this.levels[0].element, part("span", {}, ...this.steps[0]), this.shares[0])]; // what only a server can do
-    this.menu = this.makeMenu();
+    this.more = part("button", { type: "button", class: "icon", "aria-label": texts.more, "aria-expanded": "false", onclick: () => this.open(!this.isOpen) }, "⋯");
+    this.session = part("div", { class: "session" }, this.levels.element, part("span", {}, ...this.steps, this.share)); // what only a server can do
+    this.after = part("div", { class: "after" }, this.session, this.makeMenu());
     this.row = part("header", { class: "row" }, part("h1", {}, texts.title), this.toy, part("nav", { "aria-label": texts.tabs }, this.tabs.element),
-      part("span", { class: "grow" }), this.session[0],
-      this.more, this.menu);
+      part("span", { class: "grow" }), this.after, this.more);
     this.below = part("div", { class: "rooms" }, this.rooms.element);
     el.replaceChildren(part("style", {}, headStyle), part("div", { class: "all" }, this.row, this.below));
   }
@@ -61,25 +60,28 @@ class Head {
       window.dispatchEvent(new CustomEvent("tippe:guide", { detail: what }));
     } }, texts[what]);
     this.tour = guide("tour");
-    this.session.push(part("div", { class: "narrow" }, this.levels[1].element, part("span", {}, ...this.steps[1], this.shares[1])));
-    return part("div", { class: "menu", role: "group", "aria-label": texts.more, hidden: true }, this.session[1],
+    return part("div", { class: "menu", role: "group", "aria-label": texts.more },
       this.languages.element, ...this.switches.map(({ element }) => element), part("label", {}, sound, texts.sound), this.tour, guide("keys"), guide("statement"));
   }
 
+  get isOpen() { return this.more.getAttribute("aria-expanded") === "true"; }
+
+  // What opens stands before its button, and on a narrow page begins with what else stands in the row: the focus goes there.
   /** @param {boolean} whether */
   open(whether) {
-    this.menu.hidden = !whether;
     this.more.setAttribute("aria-expanded", String(whether));
+    const first = getComputedStyle(this.after).display === "contents" ? this.languages : this.levels;
+    if (whether) first.element.querySelector("[tabindex='0']")?.focus();
   }
 
   // A click elsewhere, or Escape, closes the menu.
   /** @param {Event | KeyboardEvent} event */
   leave = (event) => {
-    if (this.menu.hidden) return;
+    if (!this.isOpen) return;
     if (event instanceof KeyboardEvent) {
       if (event.key !== "Escape") return;
       this.more.focus();
-    } else if (event.composedPath().some((each) => each === this.menu || each === this.more)) return;
+    } else if (event.composedPath().some((each) => each === this.after || each === this.more)) return;
     this.open(false);
   };
 
@@ -112,7 +114,7 @@ class Head {
   }
 
   goLevel(level) {
-    for (const levels of this.levels) levels.show(level);
+    this.levels.show(level);
     this.ask("level", level);
   }
 
@@ -120,15 +122,15 @@ class Head {
     const { state } = this.model;
     if (!state.tabs || state.answered < this.count) return; // newer requests are on their way
     this.tabs.show(state.tab, state.tabs);
-    for (const levels of this.levels) levels.show(state.level, state.levels);
-    for (const each of this.session) each.hidden = !state.levels.length;
+    this.levels.show(state.level, state.levels);
+    this.session.hidden = !state.levels.length;
     this.below.hidden = !state.rooms.length;
     if (state.rooms.length) this.rooms.show(state.room, state.rooms);
-    for (const share of this.shares) share.setAttribute("aria-expanded", String(state.shares));
+    this.share.setAttribute("aria-expanded", String(state.shares));
     this.tour.hidden = !state.tour;
     this.languages.show(state.language, state.languages);
     for (const { name, box } of this.switches) box.checked = state[name];
-    for (const [undo, redo] of this.steps) [undo.disabled, redo.disabled] = [!state.undo, !state.redo];
+    for (const [i, isDone] of [state.undo, state.redo].entries()) this.steps[i].disabled = !isDone;
     this.showToys(state);
     this.row.dataset.tab = state.tab;
     this.look();

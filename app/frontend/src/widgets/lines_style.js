@@ -16,10 +16,10 @@ button[aria-expanded=true] { background: ${colours.accent}; color: white }
 .sides b { font-weight: 600; color: var(--ink) }
 .known { cursor: help; color: var(--link) } .known:hover { background: #fde9b8; color: #22303c }
 .symbols { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 230px), 1fr)); gap: 4px;
-  margin-top: 5px; font-size: 0.9em } .symbols[hidden] { display: none }
+  margin-top: 5px; font-size: calc(12px * var(--type, 1)) } .symbols[hidden] { display: none }
 .symbols div { border-radius: 6px; padding: 2px 6px;
   background: color-mix(in srgb, var(--ink) 6%, var(--card)) }
 .symbols div:focus { outline: 2px solid var(--link) }
 .tip { position: fixed; z-index: 99; pointer-events: none; background: #22303c; color: white; border-radius: 6px;
-  border: 1px solid #8a96a3; padding: 4px 8px; font-size: 0.9em; max-width: 280px }
+  border: 1px solid #8a96a3; padding: 4px 8px; font-size: calc(12px * var(--type, 1)); max-width: 280px }
 `;

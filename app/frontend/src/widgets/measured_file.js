@@ -15,7 +15,7 @@ const STYLE = `
     border: 1px solid #8b949e; border-radius: 6px; padding: 9px 10px; box-sizing: border-box }
   .says { flex: 1 0 100%; color: var(--faint); font-size: calc(12px * var(--type, 1)) } .says:empty { display: none }
   .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.accent}26; pointer-events: none;
-    border: 3px dashed var(--focus); box-sizing: border-box; font: 600 calc(20px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink) }
+    border: 3px dashed var(--focus); box-sizing: border-box; font: 600 calc(18px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink) }
   .over b { background: var(--card); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }
   `;
 const KINDS = ".csv,.tsv,.txt,.json,.zip,.xlsx,.xlsm,.xls,.ods,.trk,.trz,text/*";

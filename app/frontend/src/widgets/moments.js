@@ -6,7 +6,7 @@ import { latest } from "../motion/curves.js";
 import { part } from "../parts.js";
 
 const style = `
-ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; }
+ol { list-style: none; margin: 0; padding: 0; font-size: calc(14px * var(--type, 1)); line-height: 1.35; }
 button { display: grid; grid-template-columns: 4em 1fr 1.4fr; gap: 0 10px; width: 100%; min-height: 24px; padding: 3px 8px; text-align: left; font-variant-numeric: tabular-nums; }
 span { color: var(--faint); } i { font-family: Georgia, serif; } sub { font-size: 0.75em; line-height: 0; }
 button[aria-current] { box-shadow: inset 3px 0 0 currentColor; }

@@ -8,7 +8,7 @@ import { lifeOf, onLook } from "../life.js";
 /** @type {Record<"NEAR" | "FAR" | "RATIO", [from: number, to: number]>} */
 const { NEAR, FAR, RATIO } = { NEAR: [-0.03, 0.4], FAR: [-13, -1], RATIO: [0.4, 1.4] };
 const LEFT = 44, RIGHT = 10, TOP = 12, BOTTOM = 46, BREAK = 0.22, GAP = 10; // px, except BREAK: a fraction of the width
-const NARROW = 560, SIZE = 36, LETTER = 7.2, LINE = 15; // px: below this the map is narrow; a silhouette; a letter; a line
+const NARROW = 640, SIZE = 36, LETTER = 7.2, LINE = 15; // px: below this the map is narrow; a silhouette; a letter; a line
 const TICKS = [0, 0.1, 0.2, 0.3, 0.4], FAR_TICKS = [-10, -5], RATIO_TICKS = [0.4, 0.6, 0.8, 1, 1.2, 1.4];
 
 const STYLE = `<style>
@@ -16,7 +16,7 @@ const STYLE = `<style>
     fill: var(--ink); touch-action: pan-y } .area { --wood: #9a7434 } .axis { fill: var(--faint) }
   .turns { fill: color-mix(in srgb, var(--wood) 50%, var(--card)) } .part { fill: color-mix(in srgb, var(--wood) 26%, var(--card)) }
   .never { fill: color-mix(in srgb, var(--wood) 10%, var(--card)) } .line { stroke: var(--ink); fill: none; stroke-width: 1.5 }
-  .group { font-size: calc(17px * var(--type, 1)); font-weight: 600 } .small { font-size: calc(12px * var(--type, 1)) } .known { cursor: pointer; outline: none }
+  .group { font-size: calc(18px * var(--type, 1)); font-weight: 600 } .small { font-size: calc(12px * var(--type, 1)) } .known { cursor: pointer; outline: none }
   .known .shape { fill: color-mix(in srgb, var(--ink) 78%, var(--card)); stroke: var(--card); stroke-width: 1.5 }
   .known text { font-weight: 600; paint-order: stroke; stroke: color-mix(in srgb, var(--card) 70%, transparent); stroke-width: 3 } .ring { fill: none; stroke-width: 3.5 } .known:hover .shape, .known:focus .shape { fill: var(--ink) }
   .known:focus-visible .ring.of { stroke: var(--focus); stroke-width: 3 } .here { cursor: grab; touch-action: none; outline: none }
@@ -91,7 +91,7 @@ function groups({ x, y, first, last }, words, { wide, type }) {
   const narrow = wide / type < NARROW;
   // on a narrow map the first two would overlap on one line
   const places = [["ordinary", narrow ? 4 + first : 10 + first, TOP + (narrow ? 48 : 24), "start"], ["part", x(0) + 20, TOP + 24, "start"],
-    ["turns", last - 14, y(1.04), "end"], ["never", x(0) + 20, y(0.46), "start"]];
+    ["turns", last - 14, y(0.8), "end"], ["never", x(0) + 20, y(0.46), "start"]];
   return places.map(([name, across, down, anchor]) => {
     const [head, more] = words.groups[name], below = narrow ? "" : `<text x="${across}" y="${down + 18 * type}" text-anchor="${anchor}">${more}</text>`;
     return `<text class="group${narrow ? " small" : ""}" x="${across}" y="${down}" text-anchor="${anchor}">${head}</text>${below}`;
