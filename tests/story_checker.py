@@ -47,7 +47,8 @@ CASES = (
     ("paper", "spin=46&tilt=5&mu_k=.1"), ("paper", "spin=34&tilt=5&mu_k=.1"), ("Leine", "spin=40&tilt=5.7&mu_k=.05"),
     ("Leine", "spin=20&tilt=5.7&mu_k=.05"), ("Leine", "spin=40&tilt=5.7&mu_k=.1"), ("cone", "spin=30&tilt=44"),
     ("loaded", "spin=2.245&tilt=179.44&mu_k=.075"), ("profile", "spin=24.765&tilt=7.84&mu_k=.467"),
-    ("Top S", "spin=36.591&tilt=73.12&mu_k=.086"),
+    ("Top S", "spin=36.591&tilt=73.12&mu_k=.086"), ("paper", "spin=18.473&tilt=82.8&mu_k=.364"),
+    ("hollow", "spin=17.237&tilt=107.89&mu_k=.13"),
 )  # fmt: skip
 LIVES = (
     ("cone", "spin=3.8&tilt=15.6"), ("paper", "spin=37&tilt=61.7"), ("paper", "spin=27.5&tilt=51.8"),

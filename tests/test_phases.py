@@ -90,6 +90,12 @@ def test_it_falls_within_two_seconds_by_times_between_its_samples():
     assert "falls" in [kind for kind, *_ in found]
 
 
+def test_what_dips_first_does_not_rise_by_what_comes_then():
+    """From 84 degrees down to 76 and up to 89: by 12 degrees without its first fifth of a second, by 5 with it."""
+    found = kinds(T, np.interp(T, [0, 0.15, 0.95, 10], [84, 76, 90, 90]))
+    assert [kind for kind, *_ in found] == ["slides", "leans"] and found[0][2] == pytest.approx(0.88, abs=0.02)
+
+
 def test_a_hop_of_a_millisecond_does_not_end_a_stand():
     carried = np.where((T > 4) & (T < 4.01), "none", "ball")
     assert kinds(T, T * 0 + 3, carried=carried) == [("stands-upright", 0, 10)]

@@ -303,7 +303,7 @@ def _until(span: Span, others: list[Span]) -> Span:
 def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
     """The phases, without what is left over and SHORT: beginning with the shortest, it joins the longer of its
     neighbours that are left over too; if none is, the phase before it (or after it), if it is shorter than GAP or
-    that is a passage. What rolls, slides or sinks may swing with what joins it. Like joins like except at a cut."""
+    that is a passage. With what joins it, it is judged anew. Like joins like except at a cut."""
     kept, tried = _alike(found, run), set[Phase]()
     while short := [phase for phase in kept if phase.kind in LEFT_OVER and _long(phase) < SHORT and phase not in tried]:
         phase = min(short, key=_long)
@@ -321,8 +321,11 @@ def _joined(found: list[Phase], run: Samples) -> tuple[Phase, ...]:
 
 
 def _judged(run: Samples, phase: Phase) -> Phase:
-    """The phase; what rolls, slides or sinks may swing as a whole."""
-    if phase.kind in ("rolls", "slides") or (phase.kind == "sinks" and _goes(run, phase[1:]) > -GOES):
+    """The phase; what rolls, slides, sinks or rises by its ends alone may be of another kind as a whole."""
+    by_ends = phase.kind == "rises" and not any(
+        start < phase.end and phase.start < end for start, end in _legs(run, up=True)
+    )
+    if by_ends or phase.kind in ("rolls", "slides") or (phase.kind == "sinks" and _goes(run, phase[1:]) > -GOES):
         return phase._replace(kind=_swings(run, phase[1:]))
     return phase
 
