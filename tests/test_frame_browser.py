@@ -7,7 +7,7 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 import pytest
 import visitors
 from components import alone as alone
-from lab_page import put
+from lab_page import come, put
 from serving import served
 from visiting import wait
 from watching import LOST
@@ -65,15 +65,10 @@ def framed(host, tmp_path_factory):
         yield server.url
 
 
-async def embed(url):
-    """(the code for a frame, whether the server allows any) that Share gives."""
-    page = await visitors.come(url)
-    await page.head("share")
-    await page.until(lambda: page.visitor.find("Embed"))
-    [part] = page.visitor.find("Embed")
-    found = page.now(part, "code"), page.now(part, "frames")
-    await page.leave()
-    return found
+def code(page):
+    page.get_by_role("button", name="Share", exact=True).click()
+    page.get_by_text("In a page of yours").wait_for()
+    return page.get_by_role("textbox", name="In a page of yours")
 
 
 def course(context, host, iframe):
@@ -93,9 +88,11 @@ LIKE = {"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce"}
 
 
 def test_a_course_shows_it_as_high_as_it_is_and_keeps_its_own_scrolling_and_keys(host, framed, chromium):
-    iframe, _ = run(embed(f"{framed}?v=4&spin=20"))
-    assert re.search(r'src="[^"]*\?v=4&amp;spin=20&amp;frame=1"', iframe)
     with chromium.new_context(**LIKE) as context:
+        shared = come(context.new_page(), f"{framed}?v=4&spin=20").page
+        iframe = code(shared).input_value()
+        assert re.search(r'src="[^"]*\?v=4&amp;spin=20&amp;frame=1"', iframe)
+        shared.close()
         page, frame = course(context, host, iframe.replace("<iframe", SANDBOX))
         whole(frame)
         root = frame.locator("html")
@@ -144,8 +141,13 @@ def test_the_lesson_in_a_sandbox_keeps_its_height_and_prints_into_a_file(host, f
 
 
 def test_a_server_that_allows_no_frame_says_which_setting_does(tmp_path, alone):
+    async def frames(url):
+        page = await visitors.come(url)
+        await page.head("share")
+        await page.until(lambda: page.visitor.find("Embed"))
+        return page.now(page.visitor.find("Embed")[0], "frames")
+
     with served(tmp_path / "log") as server:
-        code, allowed = run(embed(server.url))
-    page = alone().show(Embed(code=code, frames=allowed))
+        page = alone().show(Embed(code="<iframe>", frames=run(frames(server.url))))
     page.get_by_text("TIPPE_FRAMES").wait_for()
     assert not page.locator("textarea").is_visible()

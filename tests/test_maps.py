@@ -96,8 +96,9 @@ def test_a_line_has_a_point_in_each_row_that_it_crosses_and_the_same_with_the_ax
     np.testing.assert_allclose(one, other[:, ::-1])
 
 
-def test_the_window_of_inversion():
+def test_the_window_of_inversion(monkeypatch):
     """I1/I3 from 1 - a/R to 1 + a/R (Gray and Nickel, sec. II)."""
+    monkeypatch.setattr("app.model.maps.lines.FINE", 31)  # points of each line
     asked = Map(across="a", up="ratio", across_range=(0.02, 0.4), up_range=(0.7, 1.5))
     drawn = dict(lines(asked))
     for name, sign in (("window_low", -1), ("window_high", 1)):
