@@ -58,11 +58,13 @@ class Draft:
     """The body that is being built, with everything that its views show.
 
     messages: a sentence for each field (also "file" and "stl") whose value was refused; the shape is then the last
-    valid one. name and source: those of the preset, else empty; the name is tippe_core's.
+    valid one. about: the quantity that they say cannot be. name and source: those of the preset, else empty; the name
+    is tippe_core's.
     """
 
     shape: Shape
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    about: str = ""
     name: str = ""
     source: str = ""
 
@@ -232,7 +234,7 @@ class Builder(param.Parameterized):
             self._adopt(shape, motion or self._keep)
 
     def _refuse(self, name: str, error: TopError) -> None:
-        self._publish(replace(self.draft, messages=MappingProxyType({name: sentence(error)})))
+        self._publish(replace(self.draft, messages=MappingProxyType({name: sentence(error)}), about=error.name))
 
     def _adopt(self, shape: Shape, motion: Motion | None = None, top: Top | None = None) -> None:
         top = top or shape.top

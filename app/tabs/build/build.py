@@ -200,11 +200,11 @@ class Build:
         tracks = {name: (min(each.low, values[name]), max(each.high, values[name]), each.step, None)
                   for name, each in dimensions.items()}  # fmt: skip
         wrong = {name: typeset(said) for name, said in draft.messages.items() if name in dimensions}
-        for name, value in self._tried.items():  # what cannot be any more is said where the hand was
-            if wrong and name in dimensions and name not in wrong:
-                wrong = {name: say("build.bench.with_it", value=tidy(value), name=dimensions[name].words,
-                                   unit=dimensions[name].unit, why=next(iter(wrong.values())))}  # fmt: skip
         tried = {name: value for name, value in self._tried.items() if name in wrong}
+        for name, value in tried.items():
+            if draft.about != name.partition(" ")[0]:  # another one cannot be any more: said where the hand was
+                wrong[name] = say("build.bench.with_it", value=tidy(value), name=dimensions[name].words,
+                                  unit=dimensions[name].unit, why=wrong[name])  # fmt: skip
         near = {name: nearest(shape, dimensions[name], value) for name, value in tried.items()}
         self.dimensions.show(values, tracks, messages=wrong, refused=tried,
                              nearest={name: value for name, value in near.items() if value is not None})  # fmt: skip
