@@ -3,12 +3,14 @@
 import asyncio
 import time
 from collections import OrderedDict, deque
-from contextvars import copy_context
+from contextvars import ContextVar, copy_context
 from weakref import WeakKeyDictionary
 
 from tornado.ioloop import IOLoop
 
+CHARGED = ContextVar("charged", default=None)  # the Budget of the session for which something is done, now or later
 TAKEN = 2.0  # s within which a turn has to be taken up: a page that cannot take it keeps nobody waiting
+IDLE = 0.5  # a pause is half as long if the thread has worked less than this part of it
 EXACT, NEWS = 5, 0.8  # a visitor is told each of the last places, and before those each that is nearer by a fifth
 
 
@@ -51,7 +53,8 @@ class Turn:
 
 class Turns:
     """Lets things be done one at a time, in turn among those that ask, each of whom may ask for several. pause: the
-    time after each in which the admitted visitors are served, as a multiple of the time that it took."""
+    time after each in which the admitted visitors are served, as a multiple of the time that it took; half of it if
+    they need little."""
 
     def __init__(self, pause):
         self._pause, self._waiting = pause, OrderedDict()  # whose -> deque of turns
@@ -98,8 +101,15 @@ class Turns:
         return self._now is turn
 
     def after(self, took, turn, act):
-        if self._now is turn:
-            IOLoop.current().call_later(took * self._pause, act, turn)
+        if (budget := CHARGED.get()) is not None:
+            budget.in_turn = took
+        half, worked = took * self._pause / 2, time.thread_time()
+
+        def look():
+            idle = time.thread_time() - worked < IDLE * half
+            IOLoop.current().call_later(0 if idle else half, lambda: self._now is turn and act(turn))
+
+        IOLoop.current().call_later(half, look)
 
     def end(self, turn):
         if self._now is turn:
@@ -141,4 +151,4 @@ _ROOMS = WeakKeyDictionary()  # event loop -> Turns
 
 def rooms():
     """The Turns in which the rooms of this server's pages are created."""
-    return _ROOMS.setdefault(IOLoop.current().asyncio_loop, Turns(pause=0.5))
+    return _ROOMS.setdefault(IOLoop.current().asyncio_loop, Turns(pause=1.0))

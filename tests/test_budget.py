@@ -20,9 +20,9 @@ from wire import run
 from app.model.runs import to_session
 from app.server import sockets
 from app.server.admission import Budget
-from app.server.loop import CHARGED, charging, in_one_thread
+from app.server.loop import charging, in_one_thread
 from app.server.sockets import Socket
-from app.turns import Turns
+from app.turns import CHARGED, Turns
 
 
 class Clock:
@@ -32,7 +32,7 @@ class Clock:
         self.now = 0.0
         for module in ("admission", "loop"):
             monkeypatch.setattr(f"app.server.{module}.time", self)
-        monkeypatch.setattr(Budget, "_paid", 0.0)
+        monkeypatch.setattr(Budget, "_paid", -np.inf)
 
     def thread_time(self):
         return self.now
@@ -151,12 +151,12 @@ def test_each_frame_of_a_websocket_is_charged(monkeypatch):
 
     class Handler(WebSocketHandler):
         _paced, address, told = Socket._paced, "here", False
-        budget = SimpleNamespace(spend=reads.append, wait=lambda: 0)
+        budget = SimpleNamespace(rest=lambda seconds: None, spend=reads.append, wait=lambda: 0)
 
         def __init__(self, *given):
             super().__init__(*given)
             stream = self.request.connection.stream
-            stream.read_bytes = self._paced(stream.read_bytes)
+            stream.read_bytes = self._paced(stream.read_bytes, stream.closed)
 
         def on_message(self, message):
             self.write_message(f"{message} after {len(reads)}")
@@ -197,21 +197,24 @@ def test_who_takes_a_little_never_waits_and_who_takes_much_waits_as_long_as_it_t
     budget = Budget()
     for _ in range(1000):
         clock.work(1.0)
-        budget.spend(0.02)
+        budget.rest(0.9)
+        budget.spend(0.1)
         assert budget.wait() == 0
     clock.work(60.0)
     budget.spend(60.0)
-    assert budget.wait() == pytest.approx(60.0)
-    clock.work(100.0)
-    budget.spend(1.0)
+    assert budget.wait() == pytest.approx(60.0, abs=1.5 / 0.5)  # less what all may take before
+    clock.work(200.0)
+    budget.rest(200.0)
+    budget.spend(0.2)
     assert budget.wait() == 0
 
 
 @pytest.mark.parametrize("cost", [0.002, 0.08, 1.0])
-def test_all_who_take_much_have_half_together(cost, monkeypatch):
-    """16 sessions send the next message as soon as they may."""
+def test_all_who_take_much_have_half_together_and_who_rests_between_never_waits(cost, monkeypatch):
+    """16 sessions send the next message as soon as they may; one moves a slider each 0.3 s."""
     clock = Clock(monkeypatch)
     due, used = {Budget(): 0.0 for _ in range(16)}, 0.0
+    hand, moved = Budget(), 0.0
     while clock.now < 600:
         first = min(due, key=due.get)
         clock.now = max(clock.now, due[first])
@@ -219,7 +222,40 @@ def test_all_who_take_much_have_half_together(cost, monkeypatch):
         used += cost * (clock.now > 300)  # after what they had saved up
         first.spend(cost)
         due[first] = clock.now + first.wait()
+        if clock.now - moved >= 0.3:
+            hand.rest(clock.now - moved - 0.03)
+            hand.spend(0.03)
+            moved = clock.now
+            assert hand.wait() == 0
     assert 0.45 * 300 < used <= 0.5 * 300 + 16 * cost
+
+
+def test_what_is_done_in_turn_is_not_charged():
+    """There others are served between."""
+
+    async def asked():
+        budget, turns = Budget(), Turns(0)
+        CHARGED.set(budget)
+        turn = await turns.turn("mine")
+        turn.done(0.5)
+        budget.spend(0.6)
+        budget.spend(0.2)
+        return budget.spent
+
+    assert run(asked()) == pytest.approx(0.3)
+
+
+def test_a_teacher_who_switches_rooms_twice_a_second_is_read_at_once(monkeypatch):
+    """Each switch costs 0.05 s, besides the making of the room; after each fifth a map is shown, which costs 0.2 s."""
+    clock = Clock(monkeypatch)
+    teacher = Budget()
+    for switch in range(120):
+        cost = 0.2 if switch % 5 == 4 else 0.05
+        clock.work(cost)
+        teacher.spend(cost)
+        assert teacher.wait() == 0
+        clock.work(0.5 - cost)
+        teacher.rest(0.5 - cost)
 
 
 def test_a_hand_that_drags_for_a_minute_is_read_at_once(monkeypatch):
@@ -236,7 +272,7 @@ def test_a_hand_that_drags_for_a_minute_is_read_at_once(monkeypatch):
 
 
 def test_who_asks_for_much_again_and_again_waits(monkeypatch, caplog):
-    """With a stopped clock: a message costs 0.08 s and its frame 0.0003, and at most 5 s are saved up."""
+    """With a stopped clock: a message costs 0.08 s and its frame 0.0003; 0.2 s are its own, and 1.5 s everybody's."""
     Clock(monkeypatch)
     waited = []
 
@@ -251,14 +287,15 @@ def test_who_asks_for_much_again_and_again_waits(monkeypatch, caplog):
     socket.budget, socket.request = Budget(), SimpleNamespace(remote_ip="10.0.0.7")
 
     async def ask(times):
-        read = socket._paced(nothing)
+        read = socket._paced(nothing, lambda: False)
         for _ in range(times):
             socket.budget.spend(0.08)
             for _ in range(3):  # header, mask and content of a frame
                 await read()
 
-    run(ask(62))
+    run(ask(20))
     assert waited == []
-    run(ask(3))
-    assert waited[::3] == pytest.approx([0.16, 0.32, 0.48], abs=3e-3)
+    run(ask(2))
+    assert waited == pytest.approx([20 * 0.0803 / 0.5 - 0.0803 - 1.5 / 0.5] * 3, abs=3e-3)  # 2 of 22 are its own
+    run(ask(1))
     assert "10.0.0.7 sends more than its share" in caplog.text

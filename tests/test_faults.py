@@ -132,7 +132,8 @@ def test_behind_the_proxy_a_page_goes_to_another_replica_when_its_own_stops_or_i
         assert mine.process.wait(60) == 0 and '"sessions": 0' not in get(other.root + "/liveness")[2]
         with served(tmp_path / "c", **common | {"port": int(mine.root.rsplit(":", 1)[1])}) as again:
             until(lambda: answers(again.root + "/readyz"))
-            await visitor.ask("PULL-DOC-REQ", {})  # what becomes of another replica does not disturb it
+            # what becomes of another replica does not disturb it
+            await visitor.answer(await visitor.set("p0", "no", 0))
             other.process.kill()
             with pytest.raises(Closed):
                 await visitor.receive()

@@ -178,6 +178,16 @@ def test_a_session_needs_a_token_of_this_server(server):
         run(Visitor.enter(server.url, token="eyJzZXNzaW9uX2lkIjogIm1pbmUiLCAic2Vzc2lvbl9leHBpcnkiOiA5OTk5OTk5OTk5fQ"))
 
 
+def test_a_page_asks_for_all_of_itself_once(server):
+    async def ask_twice():
+        visitor = await Visitor.enter(server.url)
+        kind, content, _ = await visitor.ask("PULL-DOC-REQ", {})
+        visitor.leave()
+        return kind, content["text"]
+
+    assert run(ask_twice()) == ("ERROR", "A page asks for all of itself once.")
+
+
 def test_a_session_has_few_sockets(server):
     async def crowd():
         mine = [await Visitor.enter(server.url)]

@@ -5,14 +5,16 @@ import html
 import itertools
 import time
 from contextvars import ContextVar
+from types import SimpleNamespace
 
 import pytest
 import visitors
 from serving import served
 from wire import Page, Visitor, get, run
 
+import app.turns
 from app.text import say
-from app.turns import TAKEN, Turns
+from app.turns import TAKEN, Turn, Turns
 
 PATIENCE = 900  # s
 CLASS = 5  # the last of each language is told of three before him
@@ -79,6 +81,19 @@ def test_others_are_served_between_the_steps_of_a_turn_and_nobody_else_has_one()
         return order
 
     assert run(asked()) == ["a", "others", "a", "others", "b", "others", "b", "others"]
+
+
+@pytest.mark.parametrize("busy", [False, True])
+def test_a_pause_is_half_as_long_if_others_need_little(busy, monkeypatch):
+    """busy: whether the clock of the thread says that others are served in it all the time."""
+    pauses, clock = [], itertools.count()
+    loop = SimpleNamespace(call_later=lambda seconds, act, *given: (pauses.append(seconds), act(*given)))
+    monkeypatch.setattr(app.turns, "IOLoop", SimpleNamespace(current=lambda: loop))
+    monkeypatch.setattr(app.turns, "time", SimpleNamespace(monotonic=time.monotonic, thread_time=clock.__next__))
+    turns = Turns(1.0 if busy else 8.0)  # between two looks the thread has worked 1 s
+    turns._now = turn = Turn(turns, "a", None, None)
+    turn.done(1.0)
+    assert sum(pauses) == (1.0 if busy else 4.0)
 
 
 def test_a_turn_that_nobody_takes_up_passes_and_comes_too_late(monkeypatch):

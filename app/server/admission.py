@@ -7,8 +7,9 @@ from collections import Counter
 from app.server.memory import FILLED, memory, memory_limit
 from app.turns import Turns
 
-SHARE = 0.5  # of the processor, for all sessions together that use more than LIGHT
-LIGHT, SAVED, OWED = 0.02, 5.0, 1.0  # of it, of one session; s of it that one can save up, and s that it can owe
+SHARE = 0.5  # of the thread, for all sessions together that take more than a little
+LIGHT, SAVED = 0.2, 0.2  # s that a session saves up in each s in which it says nothing, and in all
+SPARE = 1.5  # s that they can take before any of them waits
 SLOW = 0.25  # s of waiting that the log tells
 
 
@@ -18,7 +19,7 @@ class Admission:
     def __init__(self, settings, context):
         self.settings, self._context = settings, context
         self.sockets = set()  # of pages that were let in
-        self.making = Turns(pause=0.25)
+        self.making = Turns(pause=0.5)
         self.stopping, self.refused = False, Counter()  # why -> how often
         self.moves, self.moving = 0, 0.0  # how many messages were answered, and s that this took in all
         self._most = FILLED * memory_limit() / settings.workers
@@ -68,25 +69,28 @@ class Admission:
 
 
 class Budget:
-    """What a session takes of the processor. Those that take more than a little have one share together: each waits
-    until what all of them have taken is paid for, and nothing is read from it meanwhile."""
+    """What a session takes of the server's thread. It saves up a little of it while it says nothing. Those that take
+    more have one share together: each waits until what all of them have taken is paid for, and nothing is read from it
+    meanwhile. What is done in turn (app/turns.py) is not charged: there others are served between."""
 
     _paid = -math.inf  # when what these sessions have taken will be paid for
 
     def __init__(self):
-        self.left, self.at, self.spent = SAVED, time.monotonic(), 0.0
+        self.left, self.spent, self.in_turn = SAVED, 0.0, 0.0
+
+    def rest(self, seconds):
+        """It said nothing for so many seconds."""
+        self.left = min(SAVED, max(0.0, self.left) + LIGHT * seconds)
 
     def spend(self, seconds):
-        """Charges seconds of the processor."""
-        now = time.monotonic()
-        self.left = max(-OWED, min(SAVED, self.left + LIGHT * (now - self.at)) - seconds)
-        self.at, self.spent = now, self.spent + seconds
+        """Charges seconds of the thread, less those that were its turn."""
+        seconds, self.in_turn = max(0.0, seconds - self.in_turn), 0.0
+        self.left, self.spent = self.left - seconds, self.spent + seconds
 
     def wait(self):
-        """The time to wait after a message, s."""
+        """The time to wait before more is read, s."""
         spent, self.spent = self.spent, 0.0
-        if self.left >= 0:
-            return 0.0
         now = time.monotonic()
-        Budget._paid = max(Budget._paid, now - spent) + spent / SHARE
-        return max(0.0, Budget._paid - now)
+        if self.left < 0:
+            Budget._paid = max(Budget._paid, now - spent - SPARE / SHARE) + spent / SHARE
+        return max(0.0, Budget._paid - now) if self.left < 0 else 0.0

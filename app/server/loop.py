@@ -3,9 +3,8 @@
 import asyncio
 import time
 from collections.abc import Coroutine
-from contextvars import ContextVar
 
-CHARGED = ContextVar("charged", default=None)  # the Budget of the session for which something is done, now or later
+from app.turns import CHARGED
 
 
 def in_one_thread(loop):

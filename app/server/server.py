@@ -50,11 +50,13 @@ IDLE, IDLE_PROXY = 5, 75
 PING = 45  # s
 FRESH = 900  # s in which a page that was sent may open its session: at 100 kbit/s its scripts take 130
 TIDY = 10  # s
+SWITCH = 0.0002  # s: the server's thread waits for each computing one so long after each write. Python's 0.005 adds up
 
 
 def serve(settings, sockets, show, board, parent=None):
     """Serves until SIGTERM, or until the other end of the pipe `parent` is closed; returns the exit code. show: puts
     the page into the document being served."""
+    sys.setswitchinterval(SWITCH)
     compile_beside()  # before anything is computed
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     bokeh_settings.perform_document_validation = False  # every page has the same parts: the tests look at them

@@ -2,8 +2,10 @@
 
 import asyncio
 import logging
+import select
 import time
 import traceback
+from functools import partial
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -21,8 +23,8 @@ from app import text
 from app.server.admission import SLOW, Budget
 from app.server.answers import Answer
 from app.server.logs import refused
-from app.server.loop import CHARGED
 from app.server.messages import Refused, look_at
+from app.turns import CHARGED
 from app.widgets.failure import tell
 
 log = logging.getLogger("tippe")
@@ -30,6 +32,8 @@ log = logging.getLogger("tippe")
 LARGEST_FRAGMENT = 256 * 1024  # bytes
 MOST_FRAGMENTS = 5  # of one message: header, metadata, content, and one buffer with a header
 EACH_READ = 0.0001  # s that a read is charged, of which each frame takes three
+LEAST = 0.005  # s: shorter waits cost more than they save
+NOTICED = 0.25  # s within which a page that waits, and goes, is noticed
 
 SOCKETS = 3  # of one session: that of its page, and remains of lost ones
 
@@ -56,6 +60,16 @@ def note(error, whose="a session"):
     return str(error) if isinstance(error, Refused) else f"The server did not take that ({name})."
 
 
+def gone(stream):
+    """Closes a stream whose other end has closed, and says so. What it had sent would hide that until it is read."""
+    if not stream.closed() and hasattr(select, "POLLRDHUP"):
+        look = select.poll()
+        look.register(stream.fileno(), select.POLLRDHUP)
+        if look.poll(0):
+            stream.close()
+    return stream.closed()
+
+
 def prepare(document):
     """Prepares a session created from a token as Panel prepares one from which it generates a page."""
     document.template_variables["dist_url"] = LOCAL_DIST
@@ -68,13 +82,14 @@ def prepare(document):
 class Socket(Answer, WSHandler):
     """Bokeh's handler, with a limit for everything of which a browser could take more than its share."""
 
-    token, fragments, told = "", 0, False  # fragments: of the message that is coming in; told: that it is slowed
+    token, fragments = "", 0  # fragments: of the message that is coming in
+    told = pulled = False  # told: that it is slowed; pulled: it has its page
 
     def __init__(self, *arguments, **named):
         super().__init__(*arguments, **named)
         self.budget = Budget()  # that of its session, if there is one already
         stream = self.request.connection.stream
-        stream.read_bytes = self._paced(stream.read_bytes)
+        stream.read_bytes = self._paced(stream.read_bytes, partial(gone, stream))
 
     @property
     def address(self):
@@ -162,19 +177,22 @@ class Socket(Answer, WSHandler):
         self.refuse(why, "refused %s: %.200s", self.address, sentence)
         self.close(code, sentence.encode()[:120].decode(errors="ignore"))
 
-    def _paced(self, read):
+    def _paced(self, read, gone):
         """The stream's read_bytes(), which reads each part of a frame, also of a ping or of a part of a message: it is
         charged, and who sends more than a share waits before the next is read."""
 
         async def read_bytes(*how, **named):
+            start = time.monotonic()
             data = await read(*how, **named)
+            self.budget.rest(time.monotonic() - start)
             self.budget.spend(EACH_READ)
             wait = self.budget.wait()
             if wait > SLOW and not self.told:
                 log.warning("%s sends more than its share; it is read more slowly", self.address)
             self.told = wait > SLOW
-            if wait:
-                await asyncio.sleep(wait)
+            while wait > LEAST and not gone():
+                await asyncio.sleep(min(wait, NOTICED))
+                wait -= NOTICED
             return data
 
         return read_bytes
@@ -198,12 +216,21 @@ class Socket(Answer, WSHandler):
             await self._answer(message)
             self.application.admission.moved(time.monotonic() - start)
 
+    def _pulled(self, message):
+        """All of the page, which takes a twentieth of a second to write."""
+        if self.pulled:
+            raise Refused("A page asks for all of itself once.")
+        self.pulled = True
+        return ServerSession.pull(message, self.connection)
+
     async def _answer(self, message):
         """The reply to a message. A failure is reported in one line, to the sender and in the log."""
         try:
             look_at(message, self.connection.session.document)
-            act = ServerSession.pull if message.msgtype == "PULL-DOC-REQ" else ServerSession.patch
-            reply = await act(message, self.connection)
+            if message.msgtype == "PULL-DOC-REQ":
+                reply = await self._pulled(message)
+            else:
+                reply = await ServerSession.patch(message, self.connection)
         except Exception as error:
             sentence = note(error, self.address)
             self.application.admission.refused["message"] += 1
