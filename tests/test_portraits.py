@@ -7,6 +7,7 @@ from app.model.explorer import Explorer
 from app.model.roll.portraits import pushes, square, track
 from app.state.asked import Unasked
 from app.widgets import choices
+from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from tippe_core.paper.curve import f
 
 
@@ -44,6 +45,15 @@ def test_the_push_and_the_square_are_those_of_the_motion(scene):
 
 
 # ---- the head's choices need no page ----
+
+
+@pytest.mark.parametrize("kind", [Curve, Phase, Potential, Track, Ring, Force])
+def test_no_colour_is_a_column_of_data_which_the_dark_look_would_not_exchange(kind):
+    drawn = kind().figure.renderers
+    columns = {name for each in drawn for name in each.data_source.data}
+    glyphs = [each.glyph for each in drawn]
+    colours = {str(getattr(glyph, name)) for glyph in glyphs for name in glyph.properties() if name.endswith("_color")}
+    assert colours and columns.isdisjoint(colours)
 
 
 def test_a_choice_calls_what_it_was_given_and_nothing_unknown():

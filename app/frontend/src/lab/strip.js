@@ -98,10 +98,10 @@ export class Strip extends TimeLine {
   // What happened and when, above the curve.
   events() {
     const { scene, texts } = this;
-    const { size } = this, isPush = ([, code]) => Number(code === "push"); // which finds its place first
+    const { size } = this, isPush = ([, code]) => code === "push", first = (event) => (isPush(event) ? 2 : Number(/^(over|stands.*|falls)$/.test(event[1]))); // which find their places first
     const three = scene.table === "three", all = (three ? TABLES : [scene.table]).flatMap((name) => scene.runs[name]?.events ?? []);
     /** @type {any} */
-    const events = three ? [] : [...all].sort((one, other) => isPush(other) - isPush(one));
+    const events = three ? [] : [...all].sort((one, other) => first(other) - first(one));
     const when = (t) => say(texts, "{t} s", { t: [t, 1] });
     const lines = events.map(([t, , word, short]) => [this.x(t), `${word} ${when(t)}`, `${short} ${when(t)}`]);
     const words = placed(lines, -GAP, this.width, (word) => LETTER * size * word.length);

@@ -2,7 +2,8 @@
 import { dock, forFingers, numbers, progress, shared, timed } from "../controls/style.js";
 import { endRules } from "../ends.js";
 
-// The layout: the top and the answer side by side, the bar that controls the time directly below the top.
+// The layout: the top and the answer side by side, the bar that controls the time directly below the top, which stays where
+// it is when the research opens beside it.
 const places = `
 .lab { display: grid; gap: 12px var(--gap); padding: 12px var(--gap) 8px; align-content: start;
   --stage: clamp(390px, var(--page, 100vh) - 322px, 62cqw);
@@ -18,7 +19,7 @@ const places = `
 .lab[data-level=research]:not([data-table=three]) { grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say say" auto "controls answer" auto / minmax(0, 1fr) minmax(0, 1fr);
   --stage: clamp(300px, var(--page, 100vh) - 560px, 62cqw); }
 .lab[data-level=research] .answer { min-height: 300px; }
-@media (min-width: 1200px) { .lab.lab[data-level=research] { padding-left: 24px; } } /* the stage stays where it is */
+@media (min-width: 1200px) { .lab.lab[data-level=research] { padding-left: 24px; } }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
     --stage: clamp(390px, var(--page, 100vh) - 400px, 62cqw); }
@@ -50,8 +51,9 @@ const framed = `
 @container (max-width: 700px) { .frame[data-framed] .say > div { min-height: calc(1.3 * var(--t-l) + 5.8 * var(--t-m)); } }
 `;
 
+// Nothing but its ground until a run has arrived.
 const stage = `
-.lab:not([data-table]) > :not(.stage), .lab:not([data-table]) .stage > * { visibility: hidden; } /* no run has arrived */
+.lab:not([data-table]) > :not(.stage), .lab:not([data-table]) .stage > * { visibility: hidden; }
 .lab.old .top { opacity: .38; }
 @container (max-width: 1180px) { .top { top: 20px; } }
 @container (max-width: 700px) { .top { top: 44px; } }

@@ -9,7 +9,7 @@ const own = `
 .plane .titled b { flex: 1; } .plane .outline { padding: 4px 12px; min-height: var(--touch); } .titled .outline:first-of-type { margin-left: auto; }
 .plot { position: relative; flex: 1; min-height: 0; font-size: var(--t-s); }
 .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: pan-y; }
-.symbol { position: relative; } .symbol i { font-style: italic; } .symbol :is(sub, sup) { font-size: .75em; line-height: 0; }
+.symbol { position: relative; } .symbol i { font: italic 1em Georgia, serif; } .symbol :is(sub, sup) { font-size: .75em; line-height: 0; }
 .titled .symbol { color: var(--q-jellett); } .symbol.down { position: absolute; left: 0; font-size: var(--t-m); color: var(--q-routh); }
 .symbol.across { position: absolute; right: 0; bottom: 0; color: var(--ink-2); }
 .curves path { fill: none; stroke-linejoin: round; }
@@ -17,7 +17,7 @@ const own = `
 .curves .force { stroke: var(--q-force); stroke-width: 1.8; } .curves .verge { stroke: var(--ink); stroke-width: 1.4; } .curves .steady { stroke: var(--ink); stroke-width: 1.4; stroke-dasharray: 5 4; }
 .card { fill: var(--ground); stroke: var(--line-2); }
 .pole { fill: var(--ink); } .lead { stroke: var(--line-2); fill: none; } .half { stroke: var(--line); stroke-dasharray: 2 3; } .touch { stroke: var(--line-2); stroke-dasharray: 2 3; }
-.words, .base { pointer-events: none; } svg .sub { font-size: .75em; } svg .i { font-style: italic; }
+.words, .base { pointer-events: none; } svg .sub { font-size: .75em; } svg .i { font-style: italic; font-family: Georgia, serif; }
 svg :is(.rolls, .chosen, .K_J, .K_R) > text { font-weight: 600; } svg .lift text { fill: var(--q-force); }
 svg .chosen text { fill: var(--accent); } .name.chosen .lead { stroke: var(--accent); } svg .K_J text { fill: var(--q-jellett); } svg .K_R text { fill: var(--q-routh); }
 .path .K_J { --own: var(--q-jellett); } .path .K_R { --own: var(--q-routh); }

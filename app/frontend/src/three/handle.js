@@ -140,7 +140,7 @@ export class Handle {
     this.theta = theta;
     this.reach = (body.top ?? 1) + BEYOND;
     this.label.at.copy(this.axis).multiplyScalar(this.reach).add(this.from);
-    const said = this.said(theta);
+    const said = this.said(this.held ? (this.model.tilted[0] ?? theta) : theta); // of the hand, which its run follows later
     if (said === this.tilt) return; // nothing to write in most frames
     this.tilt = said;
     element.setAttribute("aria-valuenow", said);

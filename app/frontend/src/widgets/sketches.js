@@ -3,7 +3,7 @@
 const FRAME = (parts) => `<svg viewBox="0 0 132 92" width="132" height="92" aria-hidden="true" fill="none" stroke-linecap="round">${parts}</svg>`;
 const pale = (d) => `<path d="${d}" stroke="var(--faint)" stroke-width="1.5"/>`;
 const ink = (d) => `<path d="${d}" stroke="var(--link)" stroke-width="2.5"/>`;
-const letter = (x, y, text) => `<text x="${x}" y="${y}" font-size="13" font-style="italic" fill="var(--ink)">${text}</text>`;
+const letter = (x, y, text) => `<text x="${x}" y="${y}" font-size="14" font-family="Georgia, serif" font-style="italic" fill="var(--ink)">${text}</text>`;
 const dot = (x, y) => `<circle cx="${x}" cy="${y}" r="2.5" fill="var(--ink)"/>`;
 // the head of an arrow that ends at (x, y), along the unit vector (dx, dy)
 const head = (x, y, dx, dy) => `M${x - 7 * dx - 4 * dy} ${y - 7 * dy + 4 * dx}L${x} ${y}L${x - 7 * dx + 4 * dy} ${y - 7 * dy - 4 * dx}`;
