@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import zxingcpp
 from PIL import Image
-from visiting import IN_SIGHT, Visit, entry
+from visiting import IN_SIGHT, Visit, entry, wait
 from wire import Visitor, run
 
 from app.model.scene import solve
@@ -170,12 +170,12 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
             box = found.bounding_box()
             if box and abs(box["y"] + box["height"] / 2 - words["y"] - words["height"] / 2) < 20:
                 return found
-        raise AssertionError(says)
+        return None  # the page is still being laid out
 
     def save(says, label):
         visit.page.get_by_role("button", name=label, exact=True).last.wait_for()
         with visit.page.expect_download() as download:
-            button(says, label).click()
+            wait(visit.page, lambda: button(says, label)).click()
         path = tmp_path / download.value.suggested_filename
         download.value.save_as(path)
         return path
