@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .classify import LAST, LEANS, judged
-from .errors import TopError
+from .errors import TopError, checked
 from .motion.events import ENDS, EVENTS, REASONS
 from .motion.trajectory import ANOTHER_TOUCHES, Trajectory
 from .outcomes import steady_states
@@ -82,6 +82,7 @@ class Ending:
     creeps: bool
 
 
+@checked
 def ending(trajectory: Trajectory) -> Ending:
     """How a motion went, and how it ended.
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, single
+from ..errors import TopError, checked, single
 from ..paper import differences
 from ..paper import equations as eq
 from ..paper.constants import EXACT, Constants, Exact, State, versines
@@ -26,6 +26,7 @@ from .track import Path, Track, path
 from .trajectory import Trajectory, checked_times
 
 
+@checked
 def roll(
     top: Top, constants: Constants | None, times: ArrayLike, start: State | str = "inner", well: int = 0
 ) -> Trajectory:
@@ -96,6 +97,7 @@ class Rolling(Nutation):
         as roll()
     """
 
+    @checked
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
         self.top = single("top", top, Top)
         with localcontext(EXACT):
