@@ -41,36 +41,37 @@ def name() -> str:
     return f"kernels-{sys.implementation.cache_tag}-{target[1]}-{known.hexdigest()[:16]}"
 
 
+class Here:
+    """One folder for the kernels of all files, in each of numba's places; if it is complete, it need not be
+    writable."""
+
+    @classmethod
+    def from_function(cls, function: Any, file: str) -> Any:
+        if Path(file).is_file() and (found := super().from_function(function, __file__)):  # type: ignore[misc]
+            found._py_file = file
+            return found
+        return None
+
+    @classmethod
+    def get_suitable_cache_subpath(cls, path: str) -> str:
+        return "tippe-top-explorer"
+
+    def get_cache_path(self) -> str:
+        return os.path.join(super().get_cache_path(), name())  # type: ignore[misc]
+
+    def ensure_cache_path(self) -> None:
+        if not complete(Path(self.get_cache_path())):
+            super().ensure_cache_path()  # type: ignore[misc]
+
+    def get_disambiguator(self) -> str:
+        return f"{Path(self._py_file).parent.name}-{self._lineno}"  # type: ignore[attr-defined]
+
+
 @cache
 def store() -> Any:
     """numba's cache of one kernel, as a class. Its own makes a call fail that needs a file which cannot be read or
     written."""
     from numba.core import caching
-
-    class Here:
-        """One folder for the kernels of all files, in each of numba's places; if it is complete, it need not be
-        writable."""
-
-        @classmethod
-        def from_function(cls, function: Any, file: str) -> Any:
-            if Path(file).is_file() and (found := super().from_function(function, __file__)):  # type: ignore[misc]
-                found._py_file = file
-                return found
-            return None
-
-        @classmethod
-        def get_suitable_cache_subpath(cls, path: str) -> str:
-            return "tippe-top-explorer"
-
-        def get_cache_path(self) -> str:
-            return os.path.join(super().get_cache_path(), name())  # type: ignore[misc]
-
-        def ensure_cache_path(self) -> None:
-            if not complete(Path(self.get_cache_path())):
-                super().ensure_cache_path()  # type: ignore[misc]
-
-        def get_disambiguator(self) -> str:
-            return f"{Path(self._py_file).parent.name}-{self._lineno}"  # type: ignore[attr-defined]
 
     places = caching.UserProvidedCacheLocator, caching.InTreeCacheLocator, caching.UserWideCacheLocator
 

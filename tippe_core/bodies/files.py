@@ -70,8 +70,6 @@ def load_top(text: str | bytes) -> Shape:
     TopError
         naming the field at fault
     """
-    if not isinstance(text, (str, bytes)):
-        raise TopError("file", type(text).__name__, "str | bytes", code="wrong-kind")
     if len(text) > LONGEST:
         raise TopError("file", f"{len(text)} bytes", "at most {most} bytes", "A saved top is far smaller.",
                        code="file-too-large", most=LONGEST)  # fmt: skip

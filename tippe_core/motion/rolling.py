@@ -328,8 +328,6 @@ def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[Ex
         if given is not None and abs(given - value) > 1e-9 * max(1, abs(value)):
             raise TopError(name, given, f"{value:.10g}", "Leave it out: it follows from rolling.", code="contradiction")
     if constants is not None:
-        if not isinstance(constants, Constants):
-            raise TopError("constants", constants, "Constants | None", code="wrong-kind")
         own = Exact.of(constants, top)
         for name, one, other in (("K_J", own.K_J, exact.K_J), ("K_R", own.K_R, exact.K_R), ("2E'", own.e, exact.e)):
             if abs(one - other) > Decimal("1e-9") * max(Decimal(1), abs(other)):
