@@ -53,10 +53,10 @@ RUN = """import json, os
 import numpy as np
 from tippe_core import kept
 from tippe_core.caller import total
-from tippe_core.compiled import made, not_kept, why_not
+from tippe_core.compiled import not_kept, why_not
 print(json.dumps([float(total({}, 3)), *(sum(getattr(total.dispatcher.stats, name).values()) for name in
       ("cache_misses", "cache_hits")), not_kept(), why_not(), os.fspath(kept.folder() or "")]))
-print(json.dumps([name.partition("(")[0] for name in made]))
+print(json.dumps([name.partition("(")[0] for name in kept.made]))
 """
 # The same of all these arguments.
 ALL_FOUND = """import json
@@ -317,10 +317,10 @@ def test_every_kernel_is_compiled_ahead():
     assert "".join(said).count("\n") == len(CALLS)
 
 
-PAGE = """from tippe_core import compiled
+PAGE = """from tippe_core import kept
 from tippe_core.ahead import compile_all
 assert compile_all() == ""
-compiled.made.clear()
+kept.made.clear()
 
 from app.model.families import family
 from app.model.lesson import lesson
@@ -341,7 +341,7 @@ for law in LAWS:
 for top in known_tops():
     top.shown(0.5)
 next(family.share_map(0.4, 10.0, 0.5, [0.1, -0.2], [1.0, 1.1]))
-print(*compiled.made, sep="\\n")
+print(*kept.made, sep="\\n")
 """
 
 

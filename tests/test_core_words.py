@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from doubles import builder_of
 
+import tippe_core
 from app.model.build.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer
 from app.model.lab.examples import EXAMPLES as STARTS
@@ -54,7 +55,7 @@ def test_every_outcome_has_words_with_its_spin():
         goes = outcome(top, state)
         verdicts.add(goes.verdict)
         assert f"{abs(goes.launch) * scales.angular_velocity / (2 * np.pi):.3g} rev/s" in outcome_words(goes, scales)
-    assert verdicts == quoted(outcome.__globals__["Outcome"], "verdict : ", "\nnudged ")
+    assert verdicts == quoted(tippe_core.Outcome, "verdict : ", "\nnudged ")
     for language in LANGUAGES:
         assert {*listed("planes.outcome.will", language)} == verdicts
 

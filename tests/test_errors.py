@@ -1,6 +1,7 @@
 """Errors have codes: each one is documented, and has words in every language that do not rely on the English ones."""
 
 import ast
+import inspect
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -9,12 +10,14 @@ from string import Formatter
 import numpy as np
 import pytest
 
+import tippe_core
 from app.model.build.dimensions import sentence
 from app.text import CODES as OF_THE_PAGE
 from app.text import DEFAULT, LANGUAGES, listed, speaking, told
 from tippe_core import (
     Ball,
     BareSphere,
+    Constants,
     Contensou,
     Coulomb,
     Lathe,
@@ -22,6 +25,7 @@ from tippe_core import (
     NoMotionError,
     OrdinaryTop,
     Scales,
+    State,
     Top,
     TopError,
     TruncatedSphere,
@@ -30,9 +34,12 @@ from tippe_core import (
     ball,
     cylinder,
     dimension_from_rocking,
+    f,
     frustum,
     load_top,
     rocking_period,
+    save_top,
+    slide,
     zone,
 )
 from tippe_core.errors import CODES
@@ -131,7 +138,9 @@ BAD = [
     ("out-of-range", lambda: cylinder(0.01, 0.02, 0.01)),
     ("not-finite", lambda: Coulomb("rough")),
     ("not-finite", lambda: Contensou(0.3, np.nan)),
-    ("wrong-kind", lambda: load_top(3)),
+    ("other-kind", lambda: load_top(3)),
+    ("other-kind", lambda: f(1.0, None, None)),
+    ("wrong-kind", lambda: Contensou(0.3, 0.1, pivots="yes")),
     ("wrong-count", lambda: Lathe(R=0.005, points=(), density=700.0)),
     ("wrong-count", lambda: Lathe(R=0.005, points=((0.01, 0.0), (0.01, 0.01)), density=(700.0,))),
     ("not-whole", lambda: PAPER.profile(4)),
@@ -186,6 +195,37 @@ def test_an_error_has_its_code_and_is_told_in_every_language(code, make):
     for language in OTHERS:
         said = told(error, language)
         assert said.endswith(".") and not re.search(r"[{}]|\b(is|the|not|allowed|at|of|be|must)\b", said), said
+
+
+# An argument of each name that public functions take.
+BODY, START, LAW = Top.paper(), State(0.3, 0.0, 0.0, 9.0), Coulomb(0.3)
+GIVEN = {
+    "C_J": 3.0, "E": 27.0, "I1": 0.399, "I3": 0.408, "K_J": 7.0, "K_R": 10.0, "R": 0.02, "T": 1.0, "a": 0.07,
+    "at": (0, 0, 1.0), "constants": Constants(7.0, 10.0, 27.0), "family": lambda d: loaded(d), "friction": LAW,
+    "high": 0.012, "impulse": (0, 0, 0.1), "low": 0.002, "mu_s": 0.5, "nudge": 1e-6, "profile": PAPER.profile(64),
+    "r": 0.01, "r_high": 0.01, "r_low": 0.01, "shape": PAPER, "spin": 9.0, "state": START, "t_end": 1.0,
+    "text": save_top(PAPER), "theta": np.array([1.0]), "times": [0.0, 1.0], "top": BODY,
+    **dict.fromkeys(("moved", "near", "trajectory"), slide(BODY, START, LAW, [0.0, 1.0])),
+}  # fmt: skip
+
+
+def arguments():
+    """(function, argument) for each required argument of each public function."""
+    for name in filter(lambda name: inspect.isfunction(getattr(tippe_core, name)), tippe_core.__all__):
+        function = getattr(tippe_core, name)
+        yield from ((function, each.name) for each in inspect.signature(function).parameters.values()
+                    if each.default is each.empty and each.kind is not each.VAR_KEYWORD)  # fmt: skip
+
+
+@pytest.mark.parametrize(("function", "name"), list(arguments()), ids=lambda each: getattr(each, "__name__", each))
+def test_an_argument_of_another_kind_is_named(function, name):
+    taken = {each: GIVEN[each] for other, each in arguments() if other is function}
+    for wrong in (None, object(), {}):
+        if wrong is None and (function, name) == (tippe_core.roll, "constants"):  # a State says them
+            continue
+        with pytest.raises(TopError) as caught:
+            function(**taken | {name: wrong})
+        assert caught.value.name == name and caught.value.allowed
 
 
 def test_words_are_chosen_by_code_alone():

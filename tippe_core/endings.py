@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .classify import LAST, LEANS, judged
-from .errors import TopError
+from .errors import checked
 from .motion.events import ENDS, EVENTS, REASONS
 from .motion.trajectory import ANOTHER_TOUCHES, Trajectory
 from .outcomes import steady_states
@@ -82,6 +82,7 @@ class Ending:
     creeps: bool
 
 
+@checked
 def ending(trajectory: Trajectory) -> Ending:
     """How a motion went, and how it ended.
 
@@ -100,8 +101,6 @@ def ending(trajectory: Trajectory) -> Ending:
     TopError
         for anything but a Trajectory
     """
-    if not isinstance(trajectory, Trajectory):
-        raise TopError("trajectory", trajectory, "Trajectory", code="wrong-kind")
     moved, found, ended = trajectory, stretches(trajectory), _ended(trajectory)
     since = moved.t[-1] - LAST * (moved.t[-1] - moved.t[0])
     last = moved.t >= since

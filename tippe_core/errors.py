@@ -1,18 +1,26 @@
 """Errors for values that cannot be used: a code, the quantity's name, its value, the allowed range, and a remedy."""
 
+import functools
+import inspect
 import math
-from typing import Any, Self, SupportsFloat
+from collections.abc import Callable
+from types import NoneType
+from typing import Any, Self, SupportsFloat, TypeVar, cast, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .types import Array
 
+Function = TypeVar("Function", bound=Callable[..., Any])
+NUMERIC = float, complex, ArrayLike  # an annotation with one of these takes numbers
+
 CODES = {
     # any quantity
     "out-of-range": "outside the range that `allowed` gives as a formula",
     "not-finite": "nan, infinity, or no number at all",
     "wrong-kind": "of another type than those that `allowed` names as Python does",
+    "other-kind": "of another type than those that the annotation of an argument names",
     "many": "arrays in the place of numbers",
     "wrong-count": "too many values, or too few",
     "not-whole": "not a whole number of that range",
@@ -136,6 +144,38 @@ def single(name: str, value: Any, *kinds: type) -> Any:
         raise TopError(name, value, "{kind} of numbers", "These are many: take one, or give all to slide_many().",
                        code="many", kind=type(value).__name__)  # fmt: skip
     return value
+
+
+def checked(function: Function) -> Function:
+    """Decorator: an argument of another kind than its annotation names raises a TopError before anything else does."""
+    names, kinds = list(inspect.signature(function).parameters), dict[str, Any]()
+
+    @functools.wraps(function)
+    def call(*given: Any, **named: Any) -> Any:
+        if not kinds:  # at the first call: not while the modules are imported
+            kinds.update(get_type_hints(function))
+        for name, value in (*zip(names, given, strict=False), *named.items()):
+            _of_kind(name, value, kinds.get(name, Any), function.__qualname__.removesuffix(".__init__"))
+        return function(*given, **named)
+
+    return cast(Function, call)
+
+
+def _of_kind(name: str, value: Any, kind: Any, function: str) -> None:
+    """Raises a TopError if the value is not what an annotation takes: one of the types that it names, or numbers."""
+    origin: Any = get_origin(kind)
+    parts = get_args(kind) or (kind,)
+    if Any in parts or (value is None and NoneType in parts):
+        return
+    types: tuple[type, ...] = tuple(part for part in ((origin,) if origin is Callable else parts)
+                                    if isinstance(part, type))  # fmt: skip
+    if kind == ArrayLike or origin is np.ndarray or any(part in NUMERIC for part in parts):
+        if not isinstance(value, SupportsFloat):  # a list, or no number at all
+            numbers(name, value, finite=False)
+    elif types and bool not in types and not isinstance(value, types):
+        raise TopError(name, value, " | ".join(each.__name__ for each in types if each is not NoneType),
+                       "help(tippe_core.{function}) says what it takes.", code="other-kind",
+                       function=function)  # fmt: skip
 
 
 class Compared:

@@ -15,16 +15,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
+from typing import Any  # also of what numba has, which ships no annotations
 
-try:
+with suppress(ImportError):  # Windows: no lock on folders; a process that finds the folder changed compiles again
     import fcntl
-except ImportError:  # Windows: no lock on folders; a process that finds the folder changed compiles again
-    fcntl = None  # type: ignore[assignment]
 
 PACKAGE = Path(__file__).parent
 COMPLETE = "complete"  # this file lists the stored files and their sizes, once nothing is missing
 FOLDERS = f"kernels-*-*-{16 * '[0-9a-f]'}"  # those of all versions
 UNUSED = 30  # days after which a folder may be removed
+made: dict[str, str] = {}  # kernels that this process had to compile, with their types, and why one could not be stored
 
 
 @cache
@@ -41,30 +41,79 @@ def name() -> str:
     return f"kernels-{sys.implementation.cache_tag}-{target[1]}-{known.hexdigest()[:16]}"
 
 
+class Here:
+    """One folder for the kernels of all files, in each of numba's places; if it is complete, it need not be
+    writable."""
+
+    @classmethod
+    def from_function(cls, function: Any, file: str) -> Any:
+        if Path(file).is_file() and (found := super().from_function(function, __file__)):  # type: ignore[misc]
+            found._py_file = file
+            return found
+        return None
+
+    @classmethod
+    def get_suitable_cache_subpath(cls, path: str) -> str:
+        return "tippe-top-explorer"
+
+    def get_cache_path(self) -> str:
+        return os.path.join(super().get_cache_path(), name())  # type: ignore[misc]
+
+    def ensure_cache_path(self) -> None:
+        if not complete(Path(self.get_cache_path())):
+            super().ensure_cache_path()  # type: ignore[misc]
+
+    def get_disambiguator(self) -> str:
+        return f"{Path(self._py_file).parent.name}-{self._lineno}"  # type: ignore[attr-defined]
+
+
+@cache
+def store() -> Any:
+    """numba's cache of one kernel, as a class. Its own makes a call fail that needs a file which cannot be read or
+    written."""
+    from numba.core import caching
+
+    places = caching.UserProvidedCacheLocator, caching.InTreeCacheLocator, caching.UserWideCacheLocator
+
+    class Implementation(caching.CompileResultCacheImpl):  # type: ignore[misc]
+        _locator_classes = tuple(type(place.__name__, (Here, place), {}) for place in places)
+
+    class Store(caching.FunctionCache):  # type: ignore[misc]
+        _impl_class = Implementation
+
+        def load_overload(self, signature: Any, context: Any) -> Any:
+            try:
+                found = super().load_overload(signature, context)
+            except Exception:  # a truncated file may raise anything; start a new index
+                with suppress(OSError):
+                    self.flush()
+                return None
+            # Two processes that write at the same time, without locks, may give the code of two signatures one name.
+            asked = getattr(signature, "args", signature)
+            return found if found is not None and tuple(found.signature.args) == tuple(asked) else None
+
+        def save_overload(self, signature: Any, result: Any) -> None:
+            kernel = f"{self._py_func.__module__}.{self._py_func.__qualname__}{signature}"
+            made[kernel] = ""
+            try:
+                with locked(Path(self.cache_path), "write"):
+                    super().save_overload(signature, result)
+            except Exception as error:  # a read-only system, a full disk, a deleted folder
+                made[kernel] = str(error)
+
+    return Store
+
+
 @cache
 def folder() -> Path | None:
-    """The folder, in the first place in which numba would store that is complete or can be written to: its cache
-    directory if one is set, next to the sources, the user's cache. None if there is none, or inside an archive."""
-    from numba.core.caching import InTreeCacheLocator, UserProvidedCacheLocator, UserWideCacheLocator
-
-    class Here:
-        def get_cache_path(self) -> str:
-            return os.path.join(super().get_cache_path(), name())  # type: ignore[misc]
-
-        def ensure_cache_path(self) -> None:
-            if not complete(Path(self.get_cache_path())):
-                super().ensure_cache_path()  # type: ignore[misc]
-
-        @classmethod
-        def get_suitable_cache_subpath(cls, path: str) -> str:
-            return "tippe-top-explorer"
-
-    for place in (UserProvidedCacheLocator, InTreeCacheLocator, UserWideCacheLocator):
-        if found := type(place.__name__, (Here, place), {}).from_function(complete, __file__):  # type: ignore[attr-defined]
-            path = Path(found.get_cache_path())
-            used(path)
-            return path
-    return None
+    """The folder, in the first of numba's places that is complete or can be written to: its cache directory if one is
+    set, next to the sources, the user's cache. None if there is none, or inside an archive."""
+    try:
+        path = Path(store()(complete).cache_path)
+    except RuntimeError:
+        return None
+    used(path)
+    return path
 
 
 def complete(path: Path | None) -> bool:
@@ -103,10 +152,7 @@ def remove_unused(own: Path) -> None:
 def locked(path: Path, what: str) -> Iterator[None]:
     """Context for one process at a time, on systems that have such locks; a lock ends with the process that holds
     it."""
-    if fcntl is None:
-        yield
-        return
     with (path / f"{what}.lock").open("w") as lock:
-        with suppress(OSError):  # a network drive without locks
+        with suppress(OSError, NameError):  # a network drive without locks; no fcntl
             fcntl.flock(lock, fcntl.LOCK_EX)
         yield

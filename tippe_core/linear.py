@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import TopError, finite, single
+from .errors import TopError, checked, finite, single
 from .motion.friction import LAWS, Friction, sticks
 from .paper.top import Top
 from .types import Array
@@ -31,6 +31,7 @@ ALIKE = 1e-9  # relative to the median eigenvalue, among whose larger ones are t
 STEP = 1e-30  # of the complex-step derivative, whose truncation error is then below rounding
 
 
+@checked
 def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = False) -> Modes:
     """The eigenvalues of small disturbances of a top that spins about its own vertical axis.
 
@@ -70,6 +71,7 @@ def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = F
     return _sorted(np.array([[0, 1, 0], bends, F]))
 
 
+@checked
 def tumbling_modes(top: Top, friction: Friction, theta: float) -> Modes:
     """The eigenvalues of small disturbances of tumbling: the steady precession that neither slips nor needs friction.
 

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, overload
 
 import numpy as np
 
-from .errors import TopError, finite, has_arrays, single
+from .errors import TopError, checked, finite, has_arrays, single
 from .paper import equations as eq
 from .paper.constants import State, versines
 from .paper.top import Top
@@ -96,6 +96,7 @@ class Thresholds:
     rise: float
 
 
+@checked
 def thresholds(top: Top) -> Thresholds:
     """The spins at which the stability of spinning upright and inverted changes.
 
@@ -155,6 +156,7 @@ def jellett_potential(theta: float, top: Top, C_J: float) -> float: ...
 def jellett_potential(theta: Scalars, top: Top, C_J: Array) -> Array: ...
 @overload
 def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
+@checked
 def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
     """V_J = a(1 - c) + C_J^2/(2 I_eff).
 
@@ -178,6 +180,7 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
         return top.a * v + np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
 
 
+@checked
 def steady_states(top: Top, C_J: float) -> SteadyStates:
     """The steady states at C_J: the extrema of V_J from theta = 0 to pi, both poles included.
 
@@ -258,6 +261,7 @@ class Outcome:
     thresholds: Thresholds
 
 
+@checked
 def outcome(top: Top, state: State) -> Outcome:
     """Where sliding friction at a point, without other losses, takes a top while only its sphere touches.
 

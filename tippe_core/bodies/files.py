@@ -5,7 +5,7 @@ from collections.abc import Collection
 from dataclasses import MISSING, fields
 from typing import Any, TypeAlias
 
-from ..errors import TopError
+from ..errors import TopError, checked
 from .ranges import MOST_PIECES, MOST_POINTS
 from .shape import Shape, Turned
 from .shapes import KINDS
@@ -27,6 +27,7 @@ def given(shape: Shape) -> dict[str, Json]:
     return {field.name: value for field in fields(shape) if (value := getattr(shape, field.name)) != field.default}
 
 
+@checked
 def save_top(shape: Shape) -> str:
     """The shape as a small JSON document.
 
@@ -50,6 +51,7 @@ def save_top(shape: Shape) -> str:
     return json.dumps(document, indent=1) + "\n"
 
 
+@checked
 def load_top(text: str | bytes) -> Shape:
     """The shape in a document.
 
@@ -68,8 +70,6 @@ def load_top(text: str | bytes) -> Shape:
     TopError
         naming the field at fault
     """
-    if not isinstance(text, (str, bytes)):
-        raise TopError("file", type(text).__name__, "str | bytes", code="wrong-kind")
     if len(text) > LONGEST:
         raise TopError("file", f"{len(text)} bytes", "at most {most} bytes", "A saved top is far smaller.",
                        code="file-too-large", most=LONGEST)  # fmt: skip

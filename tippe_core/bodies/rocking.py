@@ -7,7 +7,7 @@ from math import hypot, inf, isfinite, pi, sqrt
 import numpy as np
 from scipy.optimize import brentq
 
-from ..errors import TopError, finite
+from ..errors import TopError, checked, finite
 from ..paper.top import Top
 from .ranges import in_range
 from .shape import Shape
@@ -32,6 +32,7 @@ class Measured:
     shares: dict[str, float]
 
 
+@checked
 def rocking_period(top: Top) -> float:
     """The period of small oscillations about theta = 0 without spin and without slipping:
 
@@ -58,6 +59,7 @@ def rocking_period(top: Top) -> float:
     return 2 * pi * sqrt((top.I1 + (1 - top.a) ** 2) / top.a)
 
 
+@checked
 def a_from_rocking(
     *,
     T: float,
@@ -119,6 +121,7 @@ def a_from_rocking(
     return Measured(a, hypot(*shares.values()), shares)
 
 
+@checked
 def dimension_from_rocking(
     family: Callable[[float], Shape],
     *,

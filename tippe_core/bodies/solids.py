@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..errors import TopError
+from ..errors import TopError, checked
 from ..types import Array, Scalars
 from . import mesh
 from .outline import Edge, chains, encloses, flats
@@ -170,6 +170,7 @@ class Solid:
         return mesh.stl(self.outlines, sides)
 
 
+@checked
 def zone(R: float, low: float, high: float, centre: float = 0.0) -> Solid:
     """The part of a ball between two heights, with the density 1 kg/m^3.
 
@@ -195,6 +196,7 @@ def zone(R: float, low: float, high: float, centre: float = 0.0) -> Solid:
     return Solid((Zone(R=R, low=low, high=high, centre=centre),))
 
 
+@checked
 def ball(R: float, centre: float = 0.0) -> Solid:
     """A whole ball with the density 1 kg/m^3.
 
@@ -218,6 +220,7 @@ def ball(R: float, centre: float = 0.0) -> Solid:
     return zone(R, centre - R, centre + R, centre)
 
 
+@checked
 def frustum(r_low: float, r_high: float, low: float, high: float) -> Solid:
     """A frustum of a cone, or a whole cone, with the density 1 kg/m^3.
 
@@ -241,6 +244,7 @@ def frustum(r_low: float, r_high: float, low: float, high: float) -> Solid:
     return Solid((Frustum(r_low=r_low, r_high=r_high, low=low, high=high),))
 
 
+@checked
 def cylinder(r: float, low: float, high: float) -> Solid:
     """A cylinder with the density 1 kg/m^3.
 

@@ -18,13 +18,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import TopError, single
+from ..errors import TopError, checked, single
 from ..paper import equations as eq
 from ..paper.constants import State, versines
 from ..paper.top import Top
 from .contacts import CLOSED
 
 
+@checked
 def grip(top: Top, state: State) -> tuple[State, float]:
     """The rolling State right after a rough table has stopped the slip at the ball, and the energy lost.
 

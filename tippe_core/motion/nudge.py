@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite
+from ..errors import TopError, checked, finite
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Number
@@ -16,6 +16,7 @@ from .sliding import slide
 from .trajectory import Trajectory
 
 
+@checked
 def sensitivity(
     top: Top, state: State, friction: Friction, times: ArrayLike, nudge: float = 1e-6, **how: Number
 ) -> float:
@@ -56,6 +57,7 @@ def checked_nudge(nudge: float) -> float:
     return float(nudge)
 
 
+@checked
 def beside(state: State, nudge: float, P: Record | None = None) -> State:
     """The State with a larger theta, or a smaller one if theta is 1 rad or more.
 
@@ -79,6 +81,7 @@ def beside(state: State, nudge: float, P: Record | None = None) -> State:
     return replace(state, theta=theta, z=state.z + preparing.height(P, theta) - preparing.height(P, state.theta))
 
 
+@checked
 def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
     """The largest factor by which the difference between two motions grows, over the times that both have.
 

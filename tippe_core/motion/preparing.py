@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, finite, numbers, single
+from ..errors import TopError, checked, finite, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
@@ -65,6 +65,7 @@ def checked_profile(profile: ArrayLike) -> Array:
     return rows
 
 
+@checked
 def strongest_friction(top: Top) -> float:
     """The coefficient of sliding friction above which, at some tilt and direction of slip, no normal force balances the
     friction on the ball (Painleve's paradox): the minimum of (I1 + a^2 s^2)/(|a| (1 - a c) s).

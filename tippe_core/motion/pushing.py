@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, numbers, single
+from ..errors import TopError, checked, numbers, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array
@@ -29,6 +29,7 @@ STRONGEST = 1e3  # M (gR)^1/2: it moves G of a toy at 400 m/s
 RTOL = 1e-9
 
 
+@checked
 def pushed(
     top: Top, state: State, impulse: ArrayLike, at: ArrayLike, friction: Friction, edge: ArrayLike | None = None
 ) -> State:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, single
+from ..errors import TopError, checked, single
 from ..paper import differences
 from ..paper import equations as eq
 from ..paper.constants import EXACT, Constants, Exact, State, versines
@@ -26,6 +26,7 @@ from .track import Path, Track, path
 from .trajectory import Trajectory, checked_times
 
 
+@checked
 def roll(
     top: Top, constants: Constants | None, times: ArrayLike, start: State | str = "inner", well: int = 0
 ) -> Trajectory:
@@ -96,6 +97,7 @@ class Rolling(Nutation):
         as roll()
     """
 
+    @checked
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
         self.top = single("top", top, Top)
         with localcontext(EXACT):
@@ -326,8 +328,6 @@ def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[Ex
         if given is not None and abs(given - value) > 1e-9 * max(1, abs(value)):
             raise TopError(name, given, f"{value:.10g}", "Leave it out: it follows from rolling.", code="contradiction")
     if constants is not None:
-        if not isinstance(constants, Constants):
-            raise TopError("constants", constants, "Constants | None", code="wrong-kind")
         own = Exact.of(constants, top)
         for name, one, other in (("K_J", own.K_J, exact.K_J), ("K_R", own.K_R, exact.K_R), ("2E'", own.e, exact.e)):
             if abs(one - other) > Decimal("1e-9") * max(Decimal(1), abs(other)):

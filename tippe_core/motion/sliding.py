@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite, single
+from ..errors import TopError, checked, finite, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array
@@ -31,6 +31,7 @@ Progress: TypeAlias = Callable[[float], object] | None
 STEPS_BETWEEN_CALLS = 32  # steps between two calls of progress
 
 
+@checked
 def slide(
     top: Top, state: State, friction: Friction, times: ArrayLike, rtol: float = 1e-9, landing: str = "plastic",
     edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
@@ -137,6 +138,7 @@ class Sliding:
     slide() gives for all of the times at once.
     """
 
+    @checked
     def __init__(
         self, top: Top, state: State, friction: Friction, begins: float = 0.0, rtol: float = 1e-9,
         landing: str = "plastic", edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,

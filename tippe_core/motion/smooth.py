@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, single
+from ..errors import TopError, checked, single
 from ..paper import equations as eq
 from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.search import zero
@@ -36,6 +36,7 @@ from .phase import Ends, Pose, half_sigma_rate, nearer_pole, theta_dot, v_and_m
 from .trajectory import Trajectory, checked_times
 
 
+@checked
 def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
     """The motion on a smooth table at the given times. Exact to rounding error for any length of time.
 
@@ -99,6 +100,7 @@ class Gliding(Nutation):
         as glide()
     """
 
+    @checked
     def __init__(self, top: Top, state: State) -> None:
         self.top, self.start = single("top", top, Top), single("state", state, State)
         self._inward = state.theta_dot < 0

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, finite, numbers
+from ..errors import TopError, checked, finite, numbers
 from ..paper import equations as eq
 from ..paper.constants import State
 from ..paper.top import Top
@@ -238,6 +238,7 @@ def checked_times(times: ArrayLike) -> Array:
 # ---- parts of a body other than its ball and the edge of its stem, which a motion does not know, below the table ----
 
 
+@checked
 def lowest(profile: Array, theta: Array) -> Array:
     """Height above O of the lowest point of a body at the tilts theta.
 

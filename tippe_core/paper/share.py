@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, finite
+from ..errors import TopError, checked, finite
 from ..types import Array, Scalars
 from .constants import versines
 from .limits import MORE, least_U, limit_of
@@ -20,6 +20,7 @@ POINTS, CLOSE = 10, 1e-4  # on each side of a steady precession; relative accura
 GRID_V, GRID_M = versines(tilts_near_poles(32))
 
 
+@checked
 def allowed_shares(a: ArrayLike, I1: ArrayLike, I3: ArrayLike, K_R: float, mu_s: float) -> Scalars:
     """How much of the region of Fig. 5 in the (K_J, theta) plane, K_J from 0 to P, is left if the top must not slip.
 

@@ -7,7 +7,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, finite
+from ..errors import TopError, checked, finite
 from ..types import Array, Scalars
 from . import equations as eq
 from .constants import versines
@@ -64,6 +64,7 @@ class Tielines:
 def limit_energy(top: Top, K_J: float, K_R: float, mu_s: float | None = None) -> float: ...
 @overload
 def limit_energy(top: Top, K_J: Array, K_R: float, mu_s: float | None = None) -> Array: ...
+@checked
 def limit_energy(top: Top, K_J: Scalars, K_R: float, mu_s: float | None = None) -> Scalars:
     """The largest E (6) with F_z >= 0, and F_h <= mu_s F_z where mu_s is given, on the whole trajectory.
 
@@ -95,6 +96,7 @@ def limit_energy(top: Top, K_J: Scalars, K_R: float, mu_s: float | None = None) 
     return E if np.ndim(K_J) else float(E)
 
 
+@checked
 def tielines(top: Top, K_J: ArrayLike, K_R: float, mu_s: float | None = None) -> Tielines:
     """The tielines of Fig. 5 (F_z >= 0) or of Fig. 6 (also F_h <= mu_s F_z).
 
@@ -122,6 +124,7 @@ def tielines(top: Top, K_J: ArrayLike, K_R: float, mu_s: float | None = None) ->
     return limited(top, K_J, K_R, [mu_s])[0]
 
 
+@checked
 def lift_off_and_slip_tielines(top: Top, K_J: ArrayLike, K_R: float, mu_s: float) -> tuple[Tielines, Tielines]:
     """The tielines of Figs. 5 and 6, faster than by two calls of tielines().
 

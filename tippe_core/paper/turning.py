@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import checked
 from ..types import Array, Bools
 from .constants import EXACT, Constants, Exact
 from .top import Top
@@ -26,6 +27,7 @@ class SteadyPrecessions(NamedTuple):
     stable: Bools
 
 
+@checked
 def steady_precessions(top: Top, K_J: float, K_R: float) -> SteadyPrecessions:
     """The steady precessions f = f' = 0 at K_J and K_R. Stable (f'' < 0) means a minimum of U.
 
@@ -53,6 +55,7 @@ def steady_precessions(top: Top, K_J: float, K_R: float) -> SteadyPrecessions:
         )
 
 
+@checked
 def turning_points(top: Top, constants: Constants) -> Array:
     """The intervals of theta in which f >= 0.
 
