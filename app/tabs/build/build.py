@@ -202,7 +202,7 @@ class Build:
         wrong = {name: typeset(said) for name, said in draft.messages.items() if name in dimensions}
         tried = {name: value for name, value in self._tried.items() if name in wrong}
         for name, value in tried.items():
-            if draft.about != name.partition(" ")[0]:  # another one cannot be any more, which is said where the hand was
+            if draft.about != name.partition(" ")[0]:  # another cannot be any more: said where the hand was
                 wrong[name] = say("build.bench.with_it", value=tidy(value), name=dimensions[name].words,
                                   unit=dimensions[name].unit, why=wrong[name])  # fmt: skip
         near = {name: nearest(shape, dimensions[name], value) for name, value in tried.items()}
