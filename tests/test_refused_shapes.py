@@ -148,7 +148,7 @@ SHALLOW, DEEP = '{"a":' * 500 + "1" + "}" * 500, "[" * 60_000
     [
         ("", "file"), ("nonsense", "file"), ("null", "file"), ("[]", "file"), ("3", "file"), ("{}", "schema"),
         (b"\xff\xfe\x00", "file"), (b"\x89PNG\r\n", "file"), (DEEP, "file"), (" " * 70_000, "file"), (SHALLOW, "a"),
-        (None, "file"), (7, "file"),
+        (None, "text"), (7, "text"),
         (changed(schema="other"), "schema"), (changed(schema=None), "schema"), (changed(schema=["x" * 500]), "schema"),
         (changed(version=2), "version"), (changed(version="1"), "version"), (changed(version=True), "version"),
         (changed(kind="os.system"), "kind"), (changed(kind=["Ball"]), "kind"), (changed(kind="Shape"), "kind"),

@@ -4,8 +4,8 @@ import functools
 import inspect
 import math
 from collections.abc import Callable
-from types import NoneType
-from typing import Any, Self, SupportsFloat, TypeVar, cast, get_args, get_origin, get_type_hints
+from types import NoneType, UnionType
+from typing import Any, Self, SupportsFloat, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -163,16 +163,14 @@ def checked(function: Function) -> Function:
 
 def _of_kind(name: str, value: Any, kind: Any, function: str) -> None:
     """Raises a TopError if the value is not what an annotation takes: one of the types that it names, or numbers."""
-    origin: Any = get_origin(kind)
-    parts = get_args(kind) or (kind,)
-    if Any in parts or (value is None and NoneType in parts):
+    parts = get_args(kind) if get_origin(kind) in (Union, UnionType) else (kind,)
+    types = [get_origin(part) or part for part in parts]
+    if Any in types or (value is None and NoneType in types):
         return
-    types: tuple[type, ...] = tuple(part for part in ((origin,) if origin is Callable else parts)
-                                    if isinstance(part, type))  # fmt: skip
-    if kind == ArrayLike or origin is np.ndarray or any(part in NUMERIC for part in parts):
+    if np.ndarray in types or any(part in NUMERIC for part in (kind, *parts)):
         if not isinstance(value, SupportsFloat):  # a list, or no number at all
             numbers(name, value, finite=False)
-    elif types and bool not in types and not isinstance(value, types):
+    elif all(isinstance(each, type) for each in types) and bool not in types and not isinstance(value, tuple(types)):
         raise TopError(name, value, " | ".join(each.__name__ for each in types if each is not NoneType),
                        "help(tippe_core.{function}) says what it takes.", code="other-kind",
                        function=function)  # fmt: skip
