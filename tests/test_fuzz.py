@@ -112,6 +112,10 @@ def content(draw, visitor):
     ))  # fmt: skip
 
 
+DEEP = "PATCH-DOC", {"events": [{"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "value", "new": deep(40)}]}
+NONE = "PATCH-DOC", "[" * 100_000
+
+
 async def fuzz(url, messages, seed=1):
     """Sends this many messages; returns all sentences that came back."""
     page = await visitors.come(url)
@@ -119,8 +123,7 @@ async def fuzz(url, messages, seed=1):
     await page.leave()
     draw, said, visitor = random.Random(seed), set(), await Visitor.enter(url, page.visitor.token, pull=False)
     visitor.models = page.visitor.models
-    for _ in range(messages):
-        kind, body = content(draw, visitor)
+    for kind, body in (DEEP, NONE, *(content(draw, visitor) for _ in range(messages))):
         try:
             sent = await visitor.say(kind, body)
             answered, reply = await asyncio.wait_for(visitor.answer(sent), 60)

@@ -208,7 +208,7 @@ def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(vis
                 const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers)
                 return m && Bokeh.index.find_one(m)?.frame?.bbox.width > 50
             }""", arg=figure)  # fmt: skip
-        line = {"phase": 1, "force": 1, "potential": 1}.get(figure, 0)
+        line = {"phase": 3, "force": 1, "potential": 1}.get(figure, 0)
         t, x, y = (visit.column(figure, line, column).tolist() for column in "txy")
         visit.page.locator(f"[data-figure={figure}]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
         i = len(t) // 3
