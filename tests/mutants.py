@@ -40,20 +40,24 @@ class Mutant:
     path: str
     number: int
     """Of the change in this file."""
-    function: str
-    code: str
-    """A hash of the function."""
+    line: int
     before: str
     after: str
 
+    @functools.cached_property
+    def place(self):
+        """(name of its function, hash of that)."""
+        return next((node.name, mark) for node, mark in functions_in(core(), self.path)
+                    if node.lineno <= self.line <= node.end_lineno)  # fmt: skip
+
     @property
     def key(self):
-        return self.code, self.before, self.after
+        return self.place[1], self.before, self.after
 
     @property
     def draw(self):
         """Between 0 and 1, the same for the same change."""
-        return int(hashlib.sha256(repr(self.key).encode()).hexdigest(), 16) / 2**256
+        return int(hashlib.sha256(f"{self.before}\n{self.after}".encode()).hexdigest(), 16) / 2**256
 
 
 def changes(tree):
@@ -74,11 +78,9 @@ def changes(tree):
 def mutants(path):
     """All of a file."""
     for number, (statement, before, after, _) in enumerate(changes(ast.parse((ROOT / path).read_text("utf-8")))):
-        function, code = next((node.name, mark) for node, mark in functions_in(core(), path)
-                              if node.lineno <= statement.lineno <= node.end_lineno)  # fmt: skip
         pairs = zip(before.splitlines(), after.splitlines(), strict=True)
         for old, new in ((old.strip(), new.strip()) for old, new in pairs if old != new):
-            yield Mutant(path, number, function, code, old, new)
+            yield Mutant(path, number, statement.lineno, old, new)
 
 
 def source_of(mutant):
@@ -99,10 +101,12 @@ def sample(share):
     """All changes of the equations, some of each file, and a share of the others; in an order that is drawn, so that
     what is known after some time is a sample, too."""
     drawn, printed = [], equations()
+    files = {path for path, _ in printed}
     for path in sorted(core().paths.values()):
         each = sorted(mutants(path), key=lambda mutant: mutant.draw)
         drawn += [mutant for i, mutant in enumerate(each)
-                  if i < EACH or mutant.draw < share or (path, mutant.function) in printed]  # fmt: skip
+                  if i < EACH or mutant.draw < share
+                  or (path in files and (path, mutant.place[0]) in printed)]  # fmt: skip
     return sorted(drawn, key=lambda mutant: mutant.draw)
 
 
@@ -116,7 +120,7 @@ def tests_of(mutant):
     """[(test, seconds that it takes)]; of a function that is new, those of the others of its file."""
     tests, reached = reach()
     of_file = reached.get(mutant.path, {})
-    numbers = of_file.get(mutant.function) or {number for each in of_file.values() for number in each}
+    numbers = of_file.get(mutant.place[0]) or {number for each in of_file.values() for number in each}
     return sorted((tests[number] for number in numbers), key=lambda test: test[1])
 
 
@@ -218,7 +222,7 @@ def main():
     for mutant, answer in in_turn(noticed, todo):
         by, whole = answer or ("no end", True)
         line = {"file": Path(mutant.path).stem, "before": mutant.before, "after": mutant.after, "by": by,
-                "test": digest_of(by), "rest": not by and not whole, "code": mutant.code, "commit": commit.strip(),
+                "test": digest_of(by), "rest": not by and not whole, "code": mutant.place[1], "commit": commit.strip(),
                 "date": str(datetime.date.today())}  # fmt: skip
         with LOG.open("a", encoding="utf-8") as log:
             log.write(json.dumps(line, ensure_ascii=False) + "\n")
