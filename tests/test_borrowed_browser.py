@@ -1,5 +1,5 @@
-"""Private parts of the scripts of Bokeh, each tried in Chromium on a page of Bokeh's alone: it still works, and is still
-needed. Those of the Python code are in tests/test_borrowed.py."""
+"""Private parts of the scripts of Bokeh, each tried in Chromium on a page of Bokeh's alone: it still works, and is
+still needed. Those of the Python code are in tests/test_borrowed.py."""
 
 import re
 from pathlib import Path
