@@ -1,4 +1,4 @@
-// What is borrowed of Bokeh's and Panel's scripts that has to be done before the bundle is there: it stands in the page
+// What is borrowed of Bokeh's scripts that has to be done before the bundle is there: it stands in the page
 // itself. The rest, and what holds for all: frontend/src/borrowed.js.
 
 // 1. Bokeh asks the style sheets for each colour and width of each stroke (--bk-...), and for the size of letters, and has the
@@ -26,16 +26,3 @@ try {
 } catch (error) {
   console.warn(error); // slower, and nothing else
 }
-
-// 2. Panel fetches a component's bundle when the first of its components comes, reads through it and runs a copy. The browser
-// has ours by then: under its address (https://github.com/holoviz/panel/pull/7410) it is given out as it is.
-const { bundle: itsAddress } = JSON.parse(document.getElementById("early")?.textContent ?? "");
-const ours = new URL(itsAddress, document.baseURI).href;
-const theirs = window.importShim;
-const load = (path, ...more) => {
-  const { href } = new URL(path, document.baseURI);
-  return href === ours ? import(href) : theirs(path, ...more);
-};
-window.importShim = Object.setPrototypeOf(load, theirs);
-// run while the server makes the session
-setTimeout(() => import(ours).catch(console.error));

@@ -1,5 +1,5 @@
-"""Private parts of the scripts of Bokeh, Panel and three.js, each tried in Chromium on a page of its library: it
-still works, and is still needed. Those of the Python code are in tests/test_borrowed.py."""
+"""Private parts of the scripts of Bokeh, each tried in Chromium on a page of Bokeh's alone: it still works, and is
+still needed. Those of the Python code are in tests/test_borrowed.py."""
 
 import re
 from pathlib import Path
@@ -14,7 +14,6 @@ from bokeh.resources import INLINE
 
 APP = Path(__file__).parent.parent / "app"
 BUNDLED, BEFORE = APP / "frontend/src/borrowed.js", APP / "borrowed.js"
-THREE = APP / "frontend/node_modules/three/build"
 HERE = "http://borrowed.test"
 COUNTING = """
   const theirs = CSSStyleDeclaration.prototype.getPropertyValue;
@@ -148,23 +147,24 @@ def test_a_figure_makes_room_for_its_labels_in_itself(chromium):
     page.close()
 
 
-def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
-    """2. The bundle runs once for all Panel components and for our own; Panel's own way would run it twice."""
+def test_the_bundle_runs_once(chromium, server):
+    """For all Panel components and for our own: Panel's loader is given the module that the browser has."""
     page = chromium.new_page()
     page.goto(f"{server}?")
     page.locator("#first").wait_for(state="detached")
-    same = """async (way) => {
-      const links = [...document.querySelectorAll("link[rel=modulepreload]")].map((link) => link.href);
-      const href = links.find((address) => address.includes("tippe.js"));
-      return (await way(href)).default === (await import(href)).default;
-    }"""
-    assert page.evaluate(f"() => ({same})(window.importShim)")
-    assert not page.evaluate(f"() => ({same})(Object.getPrototypeOf(window.importShim))")  # else not needed
+    page.wait_for_function("() => window.importShim")
+    assert page.evaluate(
+        """async () => {
+          const links = [...document.querySelectorAll("link[rel=modulepreload]")].map((link) => link.href);
+          const href = links.find((address) => address.includes("tippe.js"));
+          return (await window.importShim(href)).default === (await import(href)).default;
+        }"""
+    )
     page.close()
 
 
 def a_place_of_a_figure_is_where_its_scales_say(bare):
-    """3. Each corner of the frame, compared with Bokeh's own events, which are public."""
+    """2. Each corner of the frame, compared with Bokeh's own events, which are public."""
     bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")
     left, top = bare.evaluate("() => { const { left, top } = over.getBoundingClientRect(); return [left, top] }")
     bare.evaluate("() => fig.on_event('mousemove', ({ x, y }) => { window.told = [x, y] })")
@@ -178,7 +178,7 @@ def a_place_of_a_figure_is_where_its_scales_say(bare):
 
 
 def what_hears_the_mouse_has_its_cursor(bare):
-    """4. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
+    """3. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
     bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.pressed = true })")
     bare.mouse.click(200, 150)
     assert bare.evaluate("() => window.pressed")
@@ -189,7 +189,7 @@ def what_hears_the_mouse_has_its_cursor(bare):
 
 
 def a_hand_that_rests_before_it_pulls_still_pulls(bare):
-    """5."""
+    """4."""
     bare.evaluate(
         "() => { window.heard = []; for (const name of ['press', 'panstart'])"
         " fig.on_event(name, () => window.heard.push(name)) }"
@@ -215,64 +215,3 @@ def test_what_is_borrowed_for_a_figure_works_and_is_needed(bare):
     what_hears_the_mouse_has_its_cursor(bare)
     a_hand_that_rests_before_it_pulls_still_pulls(bare)
     a_figure_is_painted_without_asking_the_style_sheets(bare)
-
-
-# ---- of three.js ----
-
-
-@pytest.fixture
-def space(chromium):
-    """A page with three.js and our module; drawn(like) is the brightness, 0 to 255, of a lit pixel of a render target,
-    [red, ...]."""
-    if not THREE.is_dir():
-        pytest.skip("three.js is only where the bundle was built")
-    page = chromium.new_page()
-    page.route(f"{HERE}/", lambda route: route.fulfill(body="<!doctype html>", content_type="text/html"))
-    page.route(f"{HERE}/borrowed.js", lambda route: route.fulfill(path=BUNDLED, content_type="text/javascript"))
-    page.route(re.compile(rf"{HERE}/three/.*"), lambda route: route.fulfill(
-        path=THREE / route.request.url.rpartition("/")[2], content_type="text/javascript"))  # fmt: skip
-    page.goto(f"{HERE}/")
-    page.evaluate(
-        """async () => {
-          const THREE = await import("/three/three.module.js"), borrowed = await import("/borrowed.js");
-          const renderer = new THREE.WebGLRenderer({ antialias: false }), gl = renderer.getContext();
-          const scene = new THREE.Scene();
-          scene.background = null;
-          scene.add(new THREE.Mesh(new THREE.PlaneGeometry(4, 4), new THREE.MeshBasicMaterial({ color: 0x808080 })));
-          const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1);
-          window.pixel = (like) => {
-            const screen = { colorSpace: THREE.SRGBColorSpace, internalFormat: "RGBA8" };
-            const target = new THREE.WebGLRenderTarget(4, 4, screen);
-            if (like) borrowed.likeAScreen(target);
-            renderer.setRenderTarget(target);
-            renderer.render(scene, camera);
-            const bytes = new Uint8Array(4);
-            renderer.readRenderTargetPixels(target, 1, 1, 1, 1, bytes);
-            const buffer = borrowed.bufferOf(renderer, target);
-            gl.bindFramebuffer(gl.READ_FRAMEBUFFER, buffer);
-            const same = new Uint8Array(4);
-            gl.readPixels(1, 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, same);
-            gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
-            return { buffer: buffer instanceof WebGLFramebuffer, bytes: [...bytes], same: [...same] };
-          };
-        }"""
-    )
-    yield page
-    page.close()
-
-
-def a_target_has_the_colours_of_a_screen(found, linear):
-    """6."""
-    assert found["bytes"][0] == 128
-    assert linear["bytes"][0] < 80  # else not needed
-
-
-def webgl_finds_what_three_has_drawn(found):
-    """7."""
-    assert found["buffer"] and found["same"] == found["bytes"]
-
-
-def test_what_is_borrowed_for_a_picture_in_space_works_and_is_needed(space):
-    found, linear = (space.evaluate("(like) => window.pixel(like)", like) for like in (True, False))
-    a_target_has_the_colours_of_a_screen(found, linear)
-    webgl_finds_what_three_has_drawn(found)

@@ -22,11 +22,12 @@ def test_a_lab_whose_level_changes_while_it_comes_is_whole(monkeypatch, level):
         page()
         session = made[Session]
         view = session.makers["lab"]()
-        puts = taken_apart(view, 1)
+        steps = taken_apart(view, 1)
         other = "explore" if level == "research" else "research"
         session.level = other
-        for put in puts:
-            put()
+        for step in steps:
+            for put in step:
+                put()
         names = [type(part).__name__ for part in view]
         assert names[0] == "LabView" and len(names) == 2
 

@@ -34,13 +34,14 @@ def test_what_is_borrowed_of_bokeh_is_still_there(ours):
     assert [name for name in USED[ours] if name not in script] == []
 
 
-def test_what_is_borrowed_of_three_is_still_there():
-    three = FRONTEND / "node_modules/three/build"
+def test_the_shaders_of_three_name_what_the_stage_puts_into_them():
+    three = FRONTEND / "node_modules/three/src/renderers/shaders/ShaderChunk"
     if not three.is_dir():
         pytest.skip("three.js is only where the bundle was built")
-    script = "".join(path.read_text(encoding="utf-8") for path in three.glob("three.module*.js"))
-    for name in ("isXRRenderTarget", "__webglFramebuffer"):
-        assert name in BORROWED.read_text(encoding="utf-8") and name in script
+    stage = text(FRONTEND / "src/three/stage.js")
+    assert 'ShaderChunk.colorspace_fragment = "gl_FragColor = sRGBTransferOETF(' in stage
+    assert "gl_FragColor = linearToOutputTexel(" in text(three / "colorspace_fragment.glsl.js")
+    assert "vec4 sRGBTransferOETF(" in text(three / "colorspace_pars_fragment.glsl.js")
 
 
 def test_no_other_script_borrows():

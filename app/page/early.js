@@ -9,6 +9,16 @@ const here = window;
 /** @type {(() => void)[]} */
 const asked = [];
 const standIn = (here.Bokeh = { safely: (what) => asked.push(what) });
+// Panel has es-module-shims fetch the bundle when the first of its components comes, read through it and run a copy. The
+// browser has it by then, so its hook `fetch` gives out the one that runs.
+const ours = new URL(bundle, document.baseURI).href;
+here.tippeBundle = () => import(ours);
+here.esmsInitOptions = {
+  fetch: async (address, ...more) =>
+    address === ours
+      ? new Response("export default (await tippeBundle()).default", { headers: { "Content-Type": "text/javascript" } })
+      : fetch(address, ...more),
+};
 const parsed = new Promise((resolve) => addEventListener("DOMContentLoaded", resolve));
 
 /** @param {HTMLScriptElement} script */
@@ -36,12 +46,13 @@ async function later() {
   }
   if (here.Bokeh === standIn) return void delete here.Bokeh; // did not come
   for (const what of asked) here.Bokeh.safely(what);
+  setTimeout(() => here.tippeBundle().catch(console.error)); // while the server makes the session
 }
 
 const spoken = searches[location.search]; // of an address that asks for nothing else but a language
 if (spoken === undefined) later();
 else {
   const file = fetch(numbers);
-  import(new URL(bundle, document.baseURI).href).then((ours) => ours.default.first(file, spoken)).catch(console.error).finally(later);
+  here.tippeBundle().then((module) => module.default.first(file, spoken)).catch(console.error).finally(later);
   setTimeout(later, PATIENCE);
 }

@@ -19,7 +19,7 @@ class Admission:
     def __init__(self, settings, context):
         self.settings, self._context = settings, context
         self.sockets = set()  # of pages that were let in
-        self.making = Turns(pause=0.5)
+        self.making = Turns(pause=0.25)
         self.stopping, self.refused = False, Counter()  # why -> how often
         self.moves, self.moving = 0, 0.0  # how many messages were answered, and s that this took in all
         self._most = FILLED * memory_limit() / settings.workers

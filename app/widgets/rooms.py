@@ -29,25 +29,38 @@ def size(view):
     return FIGURE if isinstance(view, pn.pane.Bokeh) else 1 + sum(map(size, getattr(view, "objects", None) or ()))
 
 
-def taken_apart(view, most=MOST):
-    """Takes the content out of a view of many parts, and returns functions, each of which puts some of it back."""
+def pieces(view, most):
+    """Takes the content out of a view of many parts, and returns how many parts each piece of it has, and a function
+    that puts it back."""
     if not isinstance(view, pn.Column) or size(view) <= most:
         return []
     parts, view.objects = [*view.objects], []
-    puts, begin = [], 0
+    found, begin = [], 0
     while begin < len(parts):
         end, count = begin + 1, size(parts[begin])
-        while end < len(parts) and (count := count + size(parts[end])) <= most:
-            end += 1
-        inside = taken_apart(parts[begin], most)
+        while end < len(parts) and (more := count + size(parts[end])) <= most:
+            end, count = end + 1, more
+        inside = pieces(parts[begin], most)
 
         def put(begin=begin, end=end):
             if list(view.objects) == parts[:begin]:  # it has not changed meanwhile
                 view.extend(parts[begin:end])
 
-        puts += [put, *inside]
+        found += [(1 if inside else count, put), *inside]
         begin = end
-    return puts
+    return found
+
+
+def taken_apart(view, most=MOST):
+    """Takes a view of many parts apart, and returns the steps in which it is put together again, of functions."""
+    steps, room = [], 0
+    for count, put in pieces(view, most):
+        if count > room:
+            steps.append([])
+            room = most
+        steps[-1].append(put)
+        room -= count
+    return steps
 
 
 class Place:
@@ -143,7 +156,7 @@ class Place:
 
     def _create(self):
         self._view_made()
-        self._steps = self._steps or taken_apart(self._view) or [lambda: None]
+        self._steps = self._steps or taken_apart(self._view) or [[]]
 
     def _put(self):
         """Puts the next part, with all that goes with it: each change by itself would have all models counted."""
@@ -151,7 +164,8 @@ class Place:
         with self._document.models.freeze():
             if not self._stands and not is_last:
                 self._begin()
-            self._steps[0]()
+            for put in self._steps[0]:
+                put()
             if is_last:
                 self._end()
         del self._steps[0]

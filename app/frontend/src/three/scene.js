@@ -21,7 +21,7 @@ const scenes = {
 export const followScene = (dress, life) => onLook(() => dress(scenes[isDark() ? "dark" : "light"]), life);
 
 // What a scene keeps on the graphics card.
-/** @param {import("three").Scene} scene */
+/** @param {import("three").Object3D} scene */
 export function letGo(scene) {
   scene.traverse((/** @type {any} */ object) => {
     object.geometry?.dispose();

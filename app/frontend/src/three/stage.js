@@ -1,7 +1,6 @@
 // A canvas with a camera that a person can turn: builds, resizes, draws on demand, and disposes of everything.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { bufferOf, likeAScreen } from "../borrowed.js";
 import { atEnd } from "../life.js";
 import { dress, part } from "../parts.js";
 import { isHandOn } from "./hand.js";
@@ -27,6 +26,16 @@ const KEY_ZOOM = 1.1;
 // takes long: fine pixels, a new shadow, long wide lines.
 const HAND_COARSE = 0.5;
 const LONG_LINE = 300; // segments
+// All materials give the colours of a screen, also to a render target: three.js would give those only to the screen itself.
+// Colours of a background and of fog are numbers of a screen, too.
+THREE.ShaderChunk.colorspace_fragment = "gl_FragColor = sRGBTransferOETF( gl_FragColor );";
+// Copies a picture to the screen, pixel by pixel.
+const COPY = {
+  glslVersion: THREE.GLSL3, depthTest: false, depthWrite: false, blending: THREE.NoBlending,
+  vertexShader: "in vec3 position; void main() { gl_Position = vec4(position, 1.0); }",
+  fragmentShader: "precision highp float; uniform sampler2D picture; out vec4 colour;"
+    + " void main() { colour = texelFetch(picture, ivec2(gl_FragCoord.xy), 0); }",
+};
 let inWork = 0; // pictures that have been started and are not on the screen yet
 let slow = false; // whether the processor draws, as measured by any stage
 
@@ -65,10 +74,10 @@ export class Stage {
     this.camera.up.set(0, 0, 1); // as in physics: z points up
     // The render target has the antialiasing: drawing directly to a canvas blocks the whole page until it is done.
     this.renderer = new THREE.WebGLRenderer({ antialias: false, powerPreference: "low-power" });
-    this.target = new THREE.WebGLRenderTarget(1, 1, {
-      samples: SAMPLES, colorSpace: THREE.SRGBColorSpace, internalFormat: "RGBA8",
-    });
-    likeAScreen(this.target);
+    this.target = new THREE.WebGLRenderTarget(1, 1, { samples: SAMPLES });
+    const copying = new THREE.RawShaderMaterial({ ...COPY, uniforms: { picture: { value: this.target.texture } } });
+    this.copy = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), copying);
+    this.copy.frustumCulled = false;
     this.fineness = 1;
 
     const canvas = this.renderer.domElement;
@@ -183,6 +192,7 @@ export class Stage {
       renderer.setRenderTarget(target);
       renderer.compile(scene, camera);
       renderer.setRenderTarget(null);
+      renderer.compile(this.copy, camera);
       this.compiling = true;
     }
     return (this.prepared = /** @type {any[]} */ (renderer.info.programs).every((program) => program.isReady()));
@@ -286,14 +296,12 @@ export class Stage {
 
   present() {
     if (!this.fence) return;
-    const { renderer, gl, target: { width, height } } = this, canvas = renderer.domElement;
+    const { renderer, target: { width, height } } = this, canvas = renderer.domElement;
     this.forget();
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
-    // three.js does not know of this binding, so it is reset: nothing is bound.
-    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, bufferOf(renderer, this.target));
-    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
-    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
+    renderer.setViewport(0, 0, width, height);
+    renderer.render(this.copy, this.camera);
     this.pictures += 1;
     this.holder.dataset.drawn = ""; // only now do labels have something to stand on
     this.shown();
@@ -318,7 +326,7 @@ export class Stage {
     cancelAnimationFrame(this.request);
     clearTimeout(this.timer);
     this.controls.dispose();
-    letGo(this.scene);
+    for (const tree of [this.scene, this.copy]) letGo(tree);
     this.target.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();

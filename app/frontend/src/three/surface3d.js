@@ -78,7 +78,7 @@ export class Surface {
   }
 
   dress(look) {
-    this.background.set(look.ground);
+    this.background.set(look.ground).convertLinearToSRGB();
     this.lines.dress(look);
     this.axes.dress(look);
     this.stage.invalidate();

@@ -93,7 +93,7 @@ export class TopScene {
   }
 
   dress(look) {
-    for (const colour of [this.background, this.fog.color]) colour.set(look.sky);
+    for (const colour of [this.background, this.fog.color]) colour.set(look.sky).convertLinearToSRGB();
     dressTable(this.table, look);
     for (const { material } of [this.comPath.whole, this.comPath.passed, this.centre]) material.color.set(look.ink);
     this.shade.material.color.set(look.shade);
