@@ -169,7 +169,7 @@ def attacked(tmp_path_factory):
 
 
 def test_messages_that_no_page_sends(attacked):
-    said = run(among(attacked.url, 400), 600)
+    said = run(among(attacked.url, 150), 600)
     check(said, attacked.log)
     assert any("deep" in text for text in said) and any("no message" in text for text in said)
 
