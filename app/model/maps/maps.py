@@ -221,6 +221,6 @@ def _check(name: str, value: Any) -> None:
         raise TopError(name, value, f"{quantity.least:g} <= {name} <= {quantity.most:g}{unit}")
 
 
-# Three in four of its runs are decided, that of the arrival too. Within 3.5 or 4.5 s fewer are, and below 20 rev/s hardly
+# Three in four of its runs are decided, that of the arrival too: fewer within 3.5 or 4.5 s, and below 20 rev/s hardly
 # any before 20 s, when all that stood on their stems roll again.
 AT_FIRST = Map(across_range=(20.0, 50.0), up_range=(1.0, 30.0), seconds=4.0)
