@@ -8,16 +8,17 @@ import pytest
 
 from app.model.maps import steady
 from app.model.maps.body import outline_of
+from app.model.maps.choice import AT
 from app.model.maps.kept import recall
 from app.model.maps.lines import disagreements
-from app.model.maps.maps import UNITS, Map
+from app.model.maps.maps import AT_FIRST, UNITS, Map
 from app.model.maps.rates import OfLaw, Power, by_law, rates
 from app.model.maps.solving import CURVE, Level, run
 from app.model.maps.steady import Bifurcation, bifurcation, fixed
 from app.model.maps.throw import throw_of
 from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import of_laws, of_powers
-from app.tabs.maps.words import of_reason
+from app.tabs.maps.words import colours_say, of_reason
 from tippe_core import PRESETS, State, slide, thresholds
 from tippe_core.linear import tumbling
 
@@ -259,3 +260,12 @@ def test_what_stands_below_a_map_over_tops_is_of_the_top_at_the_bead():
     preset = next(preset for preset in PRESETS if preset.name == asked.body)
     assert own.thing.top.a == 0.13 and own.thing.top.I1 / own.thing.top.I3 == pytest.approx(1.2)
     assert own.thing.top.I3 == preset.top.I3 and (own.across, own.up) == ("spin", "tilt")
+
+
+def test_the_map_shown_first_answers_for_most_starts_and_for_the_first_top():
+    """It stands on its stem there, as the list of its own run says; and it says how many are decided."""
+    level = recall(AT_FIRST)
+    decided = int((level.end != "moving").sum())
+    assert decided > 0.7 * level.end.size
+    assert level.end[level.cell(*AT)] == run(AT_FIRST, *AT).end == "stem"
+    assert f"{decided:,} of {level.end.size:,} runs are decided" in colours_say(level, "end")

@@ -11,6 +11,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -26,8 +27,8 @@ PAPERS = "The paper's tippe top"
 SHIPPED = {
     Map(): DATA / "map.npz",
     Map(body=PAPERS): DATA / "map-paper.npz",
-    Map(seconds=AT_FIRST): DATA / "map-first.npz",
-    Map(body=PAPERS, seconds=AT_FIRST): DATA / "map-paper-first.npz",
+    AT_FIRST: DATA / "map-first.npz",
+    replace(AT_FIRST, body=PAPERS): DATA / "map-paper-first.npz",
 }
 IN_MEMORY, AS_FILES = 64, 100_000_000  # maps; bytes, of which one of 48 x 48 cells takes some 80,000
 _folder: Path | None = None

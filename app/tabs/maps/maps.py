@@ -11,7 +11,7 @@ from app.model.maps.body import outline_of
 from app.model.maps.choice import AT, MapChoice
 from app.model.maps.kept import claimed, keep, recall
 from app.model.maps.lines import disagreements, lines
-from app.model.maps.maps import AT_FIRST, OWN, QUANTITIES, Map, of_page
+from app.model.maps.maps import AT_FIRST, OWN, QUANTITIES, of_page
 from app.model.maps.solving import run as one_run
 from app.model.maps.solving import solve
 from app.model.maps.throw import throw_of
@@ -32,7 +32,6 @@ from app.widgets.forms import Button
 from app.widgets.plots import pane
 from tippe_core import TopError
 
-MAP = Map(seconds=AT_FIRST)
 PICTURE_EVERY = 0.3  # s
 OTHERS = 0.3  # s between two looks for a map that is being computed for another page
 # On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
@@ -59,10 +58,10 @@ class Maps:
     def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
         self.choice, self.level, self._seen, self._outline = MapChoice(), None, None, None
-        self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
+        self.usual = {"asked": AT_FIRST, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen, self._outline = of_page(scene), scene.profile
-            self.choice.asked = self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
+            self.choice.asked = self.usual["asked"] = replace(AT_FIRST, body=self._seen[0], own=self._seen[1])
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.worst, self.key = words(), words(margin=(6, 0))
@@ -163,7 +162,7 @@ class Maps:
         colour = self.choice.colour
         asked = replace(self.choice.asked, nudged=colour == "growth")
         if asked.body == OWN and asked.own is None:  # from a link, in which the page's top is given separately
-            body, own = self._seen or (MAP.body, None)
+            body, own = self._seen or (AT_FIRST.body, None)
             try:
                 self.choice.asked = replace(self.choice.asked, body=body, own=own)  # draws it
             except TopError as error:

@@ -40,7 +40,9 @@ def colours_say(level, colour):
     if level.finest:
         said.append(_patch(HATCHED, say("maps.hatched")))
         if colour == "end" and (on_the_way := (level.end == "moving").sum()):
-            said.append(f"<br>{say('maps.on_the_way', moving=on_the_way, count=level.end.size)}")
+            decided = level.end.size - on_the_way
+            text = say("maps.on_the_way", decided=decided, count=level.end.size, moving=on_the_way)
+            said.append(f"<br>{text}")
         names = dict.fromkeys(name for name, _ in lines(level.asked))
         said += [f"<br>{swatch('var(--faint)', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names]
     return "".join(said)
