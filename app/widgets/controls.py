@@ -54,8 +54,7 @@ def control(name, **more):
 
 def track(name, value, bounds=None):
     """(least, most, step, decimals) of its slider, which reaches to the value."""
-    low, high = bounds or (INPUTS[name].low, INPUTS[name].high)
-    return min(low, value), max(high, value), INPUTS[name].step, None
+    return *INPUTS[name].track(value, bounds), INPUTS[name].step, None
 
 
 def values_of(scene):
