@@ -173,7 +173,8 @@ class Controls(param.Parameterized):
         )
         nods = "motion" if f"{inner:.3f}" != f"{outer:.3f}" else "stays"
         motion = say(
-            f"controls.notes.{nods}", worst=worst(scene), notes="".join(f" {html.escape(note)}" for note in scene.notes),
+            f"controls.notes.{nods}", worst=worst(scene),
+            notes="".join(f" {html.escape(note)}" for note in scene.notes),
             theta=named("theta"), inner=inner, outer=outer, inner_degrees=math.degrees(inner),
             outer_degrees=math.degrees(outer),
         )  # fmt: skip
