@@ -152,6 +152,13 @@ def test_the_face_shown_changes_nothing(explorer):
     assert explorer.scene is scene and not scenes and inputs_of(explorer) == before
 
 
+def test_a_steady_precession_is_said_to_stay_and_another_motion_to_go_from_one_tilt_to_another(explorer):
+    scene = explorer.scene
+    assert "from 0.391 to 0.763 rad (22.4° to 43.7°)" in Controls._notes(scene)["energy"]
+    explorer.set(E=scene.marks.steady)
+    assert "stays at 0." in Controls._notes(explorer.scene)["energy"]
+
+
 @pytest.mark.parametrize("name, value", [("theta", 4.0), ("theta_dot", float("inf"))])
 def test_a_state_that_cannot_be_is_said_beside_it(explorer, name, value):
     good = explorer.scene

@@ -186,3 +186,12 @@ def test_numbers_are_written_as_the_language_writes_them():
     assert spelled("at 4.5 s, 21 mm.") == "at 4.5\u00a0s, 21\u00a0mm."
     with speaking("de"):
         assert spelled("Nach 4.5 s fällt er. Ende.") == "Nach 4,5\u00a0s fällt er. Ende."
+
+
+@pytest.mark.parametrize("name, beyond, track", [("spin", -5.0, [-100, 50]), ("tilt", 80.2, [0, 180])])
+def test_a_slider_reaches_to_a_value_beyond_it(tab, name, beyond, track):
+    """To the bound of what may be typed; back among the usual ones it is as before."""
+    usual = shown(tab)["sliders"][name][:2]
+    state = wish(tab, 1, name, beyond)
+    assert (state["values"][name], state["sliders"][name][:2]) == (beyond, track) and not state["messages"]
+    assert wish(tab, 2, name, 20.0)["sliders"][name][:2] == usual

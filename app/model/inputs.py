@@ -1,7 +1,7 @@
 """The range of each input, the same in all views. Its name and unit are in controls.toml, under `inputs`."""
 
 from dataclasses import dataclass
-from math import inf, pi
+from math import inf, isfinite, pi
 from types import MappingProxyType
 
 
@@ -16,6 +16,12 @@ class Input:
     digits: int | None = None
     least: float = -inf
     most: float = inf
+
+    def track(self, value: float, bounds: tuple[float, float] | None = None) -> tuple[float, float]:
+        """(least, most) of its slider, of bounds or its own; where the value lies beyond, as far as it may be set."""
+        low, high = bounds or (self.low, self.high)
+        return (low if value >= low else self.least if isfinite(self.least) else value,
+                high if value <= high else self.most if isfinite(self.most) else value)  # fmt: skip
 
 
 INPUTS = MappingProxyType({

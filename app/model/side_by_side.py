@@ -1,6 +1,7 @@
 """What the page says of one start on several tables together."""
 
 from collections.abc import Mapping
+from math import ceil
 
 import numpy as np
 
@@ -31,5 +32,7 @@ def of_all(motions: Mapping[str, TableMotion]) -> tuple[str, str]:
         ends: dict[str, Number] = {f"{name}_{end}": float(getattr(motion.tilt, of)()) for name, motion in quiet.items()
                 for end, of in (("low", "min"), ("high", "max"))}  # fmt: skip
         near = all(np.ptp(motion.tilt) < NEAR for motion in quiet.values())
+        ends |= {f"{name}_by": ceil(10 * float(np.abs(motion.tilt - motion.tilt[0]).max()) or 1) / 10
+                 for name, motion in quiet.items()}  # fmt: skip
         said.append(say(f"lab.three.{'near' if near else 'far'}", **ends))
     return say(f"lab.three.{'turned' if turned else 'headline'}"), " ".join(said)

@@ -54,8 +54,7 @@ def control(name, **more):
 
 def track(name, value, bounds=None):
     """(least, most, step, decimals) of its slider, which reaches to the value."""
-    low, high = bounds or (INPUTS[name].low, INPUTS[name].high)
-    return min(low, value), max(high, value), INPUTS[name].step, None
+    return *INPUTS[name].track(value, bounds), INPUTS[name].step, None
 
 
 def values_of(scene):
@@ -172,8 +171,10 @@ class Controls(param.Parameterized):
             for name, E in (("steady", marks.steady), ("slip", marks.slip), ("lift", marks.lift))
             if math.isfinite(E)
         )
+        nods = "motion" if f"{inner:.3f}" != f"{outer:.3f}" else "stays"
         motion = say(
-            "controls.notes.motion", worst=worst(scene), notes="".join(f" {html.escape(note)}" for note in scene.notes),
+            f"controls.notes.{nods}", worst=worst(scene),
+            notes="".join(f" {html.escape(note)}" for note in scene.notes),
             theta=named("theta"), inner=inner, outer=outer, inner_degrees=math.degrees(inner),
             outer_degrees=math.degrees(outer),
         )  # fmt: skip

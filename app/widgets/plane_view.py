@@ -55,7 +55,7 @@ class PlaneView(Bundled):
     def says(cls, language=None):
         words = listed("roll.plane", language) | {"slips": listed("roll.slips", language)}
         words |= {"ways": listed("regimes.way", language), "limited_by": LIMITED_BY, "place": "<br>".join(PLACE)}
-        words |= {"roads": listed("roll.roads", language), "near": listed("roll.near", language)["says"]}
+        words |= {"roads": listed("roll.roads", language), "near": listed("roll.near", language)}
         return super().says(language) | words | {
             "figure": listed("roll.figures", language)["plane"],
             "up": f"{named('K_J')} {SPIN}", "down": named("K_R"), "across": f"{named('angle')} (rad)",

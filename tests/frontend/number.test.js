@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { between } from "../../app/frontend/src/controls/number.js";
+import { between, clear } from "../../app/frontend/src/controls/number.js";
 
 const texts = { beyond: "beyond {mark}", between: "{percent} percent of the way from {from} to {to}" };
 
@@ -10,4 +10,9 @@ test("a slider with marks names the marks around its value", () => {
     3: "lifts off", 3.1: "beyond lifts off",
   };
   for (const [value, words] of Object.entries(said)) assert.equal(between(Number(value), marks, texts), words);
+});
+
+test("words at marks that are too close leave room for the first", () => {
+  assert.deepEqual(clear([[0, "steady"], [0.45, "slips"], [0.86, "lifts off"]]), [true, true, true]);
+  assert.deepEqual(clear([[0, "steady"], [0.11, "slips"], [0.5, "lifts off"]]), [true, false, true]); // E far above them
 });

@@ -33,7 +33,7 @@ from app.widgets.top3d import pack_frames
 from tippe_core import Top, TopError
 
 SLIDERS = {name: (each.low, each.high, each.step, each.digits) for name, each in INPUTS.items() if name in LIMITS}
-"""{input: (least, most, step, decimals) of its slider}; values outside can be typed."""
+"""{input: (least, most, step, decimals) of its slider}, which grows for a value outside."""
 SOON = 0.05  # s: a run that is done sooner is not shown as under way
 LOOKS = 0.3  # s between two updates of the progress of a run
 
@@ -212,14 +212,16 @@ class LabTab:
     def _state(self, scene):
         lab, start, asked = self._lab, self._lab.explorer, self._asked(scene)
         toy = start.toy
+        values = {name: lab.value(name) for name in SLIDERS}
+        sliders = {name: (*INPUTS[name].track(values[name]), *known[2:]) for name, known in SLIDERS.items()}
         messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
         dims = dimensions(toy)
         sizes_of = {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()}
         rolls = "" if self.view.level == LEVELS[0] else spelled(self._rolls)
         return {
             "toy": toy if isinstance(toy, str) else "",
-            "values": {name: lab.value(name) for name in SLIDERS} | sizes(toy),
-            "sliders": SLIDERS | sizes_of, "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
+            "values": values | sizes(toy),
+            "sliders": sliders | sizes_of, "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
             "law": self._law(start.law), "friction": [start.law, start.landing, start.stem], "messages": messages,
             "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},

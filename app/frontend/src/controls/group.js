@@ -18,6 +18,7 @@ i, sub, sup { font-family: Georgia, serif; } sub, sup { font-size: .75em; line-h
 .ticks span { position: absolute; transform: translateX(-50%); padding-top: 4px; white-space: nowrap; }
 .ticks span:first-child { transform: translateX(-10px); }
 .ticks span::before { content: ""; position: absolute; left: 50%; top: 0; height: 5px; border-left: 1px solid; } .ticks span:first-child::before { left: 10px; }
+.ticks .crowded { color: transparent; } .ticks span::before { border-color: var(--ink-2); }
 @media (max-width: 999px) { input { scroll-margin: calc(82px * var(--type, 1) + 24px + min(50vh, 400px)) 0 72px; } } /* between stage and tabs */
 @media (max-width: 700px) {
   :host(.docked), .docked, .docked .group { display: contents; } .docked .group > * { margin: 4px 12px; } .docked .group > .dock { display: block; margin: 0; padding-inline: 0; z-index: 3; }

@@ -5,7 +5,7 @@ import { explain } from "./wrong.js";
 import { part, read, say, written } from "../parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
-const WIDTH = 340, WIDE = 5.6, APART = 16; // px: least width of the strip of ends, a letter below it, a gap between words
+const WIDTH = 340, NARROW = 260, WIDE = 5.6, APART = 16; // px: least width of the strip of ends and of a track with marks, a letter below it, a gap between words
 const NEXT = 6; // px between words if one of them is at a mark
 
 // A value between named marks, in words.
@@ -15,6 +15,17 @@ export function between(value, marks, texts) {
   if (value === from[0]) return from[1];
   if (!to) return fill(texts.beyond, { mark: from[1] });
   return fill(texts.between, { percent: Math.round((100 * (value - from[0])) / (to[0] - from[0])), from: from[1], to: to[1] });
+}
+
+// Of the words at marks on a track, the first one at its left end: whether each is clear of those before it.
+/** @param {[share: number, word: string][]} places */
+export function clear(places) {
+  let end = -Infinity; // px, of the last word that is clear
+  return places.map(([share, { length }], i) => {
+    const half = (WIDE * length) / 2, middle = i ? share * NARROW : half, isClear = middle - half > end + NEXT;
+    if (isClear) end = middle + half;
+    return isClear;
+  });
 }
 
 export class Control {
@@ -98,7 +109,12 @@ export class Control {
   // The mark of the present value; a value beyond the track has none.
   point() {
     const { low, high } = this.limits;
-    for (const [i, [at]] of this.marks.entries()) this.ticks.children[i].style.left = this.along((at - low) / (high - low));
+    const places = this.marks.map(([at, word]) => /** @type {[number, string]} */ ([(at - low) / (high - low), word])), isClear = clear(places);
+    for (const [i, [share]] of places.entries()) {
+      const tick = /** @type {HTMLElement} */ (this.ticks.children[i]);
+      tick.style.left = this.along(share);
+      tick.classList.toggle("crowded", !isClear[i]);
+    }
     if (!this.mark) return;
     this.mark.hidden = this.share < 0 || this.share > 1;
     this.mark.style.left = this.along(this.share);
@@ -109,8 +125,10 @@ export class Control {
 
   /** @param {any} state @param {boolean} ahead whether it has been moved since */
   show(state, ahead) {
-    const [low, high, step, digits] = state.sliders[this.name], message = state.messages[this.name], own = state.fields?.[this.name];
+    const [least, most, step, digits] = state.sliders[this.name], message = state.messages[this.name], own = state.fields?.[this.name];
     this.isApart = own !== undefined;
+    // A track that reached beyond its ends, to a value there, is not shortened under a hand.
+    const isHeld = this.slider.matches(":active"), low = isHeld ? Math.min(least, this.limits.low) : least, high = isHeld ? Math.max(most, this.limits.high) : most;
     this.limits = { low, high, digits };
     Object.assign(this.slider, { min: low, max: high, step });
     const [refused, kept] = [state.refused[this.name], state.values[this.name]];
@@ -198,10 +216,10 @@ export class Control {
   // Below the track: how the run ends for each spin.
   /** @param {[from: number, to: number, code: string, word: string][] | null} ends */
   showEnds(ends) {
-    const key = JSON.stringify(ends);
+    const { low, high } = this.limits, key = JSON.stringify([ends, low, high]);
     if (key === this.ends) return;
     this.ends = key;
-    const { low, high } = this.limits, at = (value) => this.along((value - low) / (high - low));
+    const at = (value) => this.along((value - low) / (high - low));
     const bar = part("div", { class: "ends", role: "img", "aria-label": this.texts.ends });
     this.mark = part("i", { class: "mark" });
     if (!ends?.length) {
@@ -223,13 +241,14 @@ export class Control {
   // The words of its two largest parts, left and right, and where the right one begins.
   words(ends) {
     const { low, high } = this.limits, size = ([from, to]) => to - from;
-    const [large, next] = [...ends].sort((a, b) => size(b) - size(a)), line = part("div", { class: "words" });
+    const [large, next] = [...ends].sort((a, b) => size(b) - size(a)), first = (ends[0][0] - low) / (high - low);
+    const line = part("div", { class: "words", style: `padding-left: ${this.along(first)}` }); // below the strip, which may begin later than the track
     if (!next || next[3] === large[3]) line.append(part("span", {}, large[3]));
     else {
       const [left, right] = large[0] < next[0] ? [large, next] : [next, large];
       const [from, at] = [left, right].map(([start]) => (start - low) / (high - low));
-      line.append(part("span", {}, left[3]));
       const letters = WIDE * (left[3].length + right[3].length), room = (at - from) * WIDTH > WIDE * left[3].length + APART;
+      if (room || letters + APART < (1 - first) * WIDTH) line.append(part("span", {}, left[3]));
       if (room) Object.assign(line.children[0].style, { position: "absolute", left: this.along(from) }); // below its own part
       if ((room || at * WIDTH > WIDE * left[3].length + APART) && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
         line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));

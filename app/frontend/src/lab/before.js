@@ -85,11 +85,12 @@ export class Before {
   }
 }
 
-// The inputs that differ between two scenes.
+// The inputs that differ between two scenes; of numbers, those that are written differently.
+const differ = (one, other) => (typeof other[0] === "number" && one ? one[1] !== other[1] : one?.[0] !== other[0]);
 function changes(one, other) {
   const [a, b] = [one.state.of, other.state.of];
   if (!a || !b) return [];
-  const found = Object.keys(b).filter((name) => a[name]?.[0] !== b[name][0]), sizes = found.filter((name) => name.startsWith(SIZE));
+  const found = Object.keys(b).filter((name) => differ(a[name], b[name])), sizes = found.filter((name) => name.startsWith(SIZE));
   // a body of another kind has other dimensions
   const isOther = sizes.some((name) => !a[name]) || Object.keys(a).some((name) => !b[name]) || sizes.length > 1;
   return found.filter((name) => a[name] && (isOther ? !name.startsWith(SIZE) : name !== "toy" || !sizes.length));

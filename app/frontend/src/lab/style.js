@@ -10,11 +10,15 @@ const places = `
   grid-template: "stage answer" calc(var(--stage) - 150px) "stage controls" 138px "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); }
 .strip { grid-area: strip; min-width: 0; } .say { grid-area: say; min-width: 0; } .answer { grid-area: answer; min-width: 0; }
 .controls { grid-area: controls; min-width: 0; } .keeps { grid-area: answer; min-width: 0; display: none; overflow-x: auto; }
-.lab[data-table=three] { --stage: clamp(300px, var(--page, 100vh) - 458px, 40cqw);
+.lab[data-table=three] { --stage: clamp(300px, var(--page, 100vh) - 482px, 40cqw);
   grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say answer" auto "controls answer" auto / var(--side) minmax(0, 1fr); }
 .lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
 .lab[data-table=three] .body { display: none; }
-.lab[data-table=three] .outline { display: none; }
+.lab[data-table=three] .say .outline { display: none; }
+@container (min-width: 1181px) { /* the one slider beside its button */
+  .lab[data-table=three] .dock { grid-template-columns: 1fr auto; align-items: center; gap: 24px; } .lab[data-table=three] .dock .titled { display: contents; }
+  .lab[data-table=three] .dock h2 { display: none; } .lab[data-table=three] .launch { order: 1; }
+}
 /* With the research beside it, all is below the top. */
 .lab[data-level=research]:not([data-table=three]) { grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say say" auto "controls answer" auto / minmax(0, 1fr) minmax(0, 1fr);
   --stage: clamp(300px, var(--page, 100vh) - 560px, 62cqw); }
@@ -23,6 +27,7 @@ const places = `
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
     --stage: clamp(390px, var(--page, 100vh) - 400px, 62cqw); }
+  .lab[data-table=three] { --stage: clamp(300px, var(--page, 100vh) - 572px, 40cqw); } .frame[data-large] .lab[data-table=three] { --stage: clamp(300px, var(--page, 100vh) - 660px, 40cqw); }
   .frame[data-large] .lab { --t-s: 20px; --t-m: 23px; --t-l: 32px; --touch: 48px; --side: 640px; --bar: 196px;
     --stage: clamp(390px, var(--page, 100vh) - 470px, 62cqw); }
 }
@@ -55,7 +60,7 @@ const framed = `
 const stage = `
 .lab:not([data-table]) > :not(.stage), .lab:not([data-table]) .stage > * { visibility: hidden; }
 .lab.old .top { opacity: .38; }
-@container (max-width: 1180px) { .top { top: 20px; } }
+@container (max-width: 1180px) { .top { top: 20px; } .lab[data-table=three] .shows { bottom: 72px; } }
 @container (max-width: 700px) { .top { top: 44px; } }
 .on { position: absolute; left: 12px; right: 12px; top: 12px; display: flex; justify-content: space-between; align-items: flex-start; gap: 8px; pointer-events: none; }
 .on > * { pointer-events: auto; }
@@ -97,7 +102,7 @@ const strip = `
 path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
 .say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; } .say .small .link { min-height: 0; }
-@container (max-width: 1180px) { .outline { max-width: 230px; } }
+@container (max-width: 1180px) { .outline { max-width: 330px; } }
 @container (max-width: 700px) {
   /* on the stage, and as long in sight as that */
   .strip { display: contents; } .strip .plot { height: 124px; margin: 0 16px; padding-top: 8px; flex: none; }
@@ -126,7 +131,7 @@ svg .word.own { fill: var(--q-spin); } .answer .rest { stroke: var(--line-2); } 
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
 .half { font-size: var(--t-s); color: var(--ink-2); } th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
 thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
-.kept, .kept + .small { white-space: nowrap; } .kept { margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
+.kept, .kept + .small { white-space: nowrap; display: inline-block; } .kept { margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
 @container (max-width: 700px) { .lab > .answer .plot { flex: none; height: 240px; } .large { padding: 16px; width: 100vw; height: 100vh; border-radius: 0; } :is(.lab > .answer, .large) .titled { flex-wrap: wrap; } .lab > .answer h2 { flex-basis: 100%; } .mini button { min-height: 44px; min-width: 44px; } }
 `;
 

@@ -43,7 +43,7 @@ export class Inset {
     const [along, up] = [[state.inner - around, state.outer + around], [state.K_J - by, state.K_J + by]];
     const plot = plotOf(inner, along, up), said = (tilt) => local(degrees(tilt).toFixed(1));
     this.chosen.show(plot, state);
-    const text = fill(texts.near, { inner: said(state.inner), outer: said(state.outer) });
+    const text = fill(texts.near[said(state.inner) === said(state.outer) ? "stays" : "says"], { inner: said(state.inner), outer: said(state.outer) });
     return [
       drawn("rect", { class: "card", x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top, rx: 6 }),
       drawn("clipPath", { id: "near" }, drawn("rect", { x: inner.left, y: inner.top, width: inner.right - inner.left, height: inner.bottom - inner.top })),

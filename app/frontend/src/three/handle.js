@@ -50,6 +50,7 @@ export class Handle {
     this.label = labels.add("", "handle");
     const { element } = this.label;
     element.removeAttribute("aria-hidden");
+    for (const by of ["animationend", "pointerdown", "keydown"]) element.addEventListener(by, () => element.classList.add("found"));
     dress(element, { tabindex: 0, role: "slider", "aria-label": model.texts.handle, "aria-valuemin": 0, "aria-valuemax": this.said(Math.PI), title: model.texts.handle_hint });
     element.addEventListener("pointerdown", (event) => {
       event.preventDefault();

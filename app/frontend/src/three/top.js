@@ -6,7 +6,7 @@ import { modelOf } from "../stand_in.js";
 
 // The Lab has its own words for these.
 const OURS = ".tippe .verdict { display: none } :host(:not([data-arrows])) .tippe .scales { display: none }" +
-  ".tippe .scales { left: auto; right: 16px; top: 16px } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 } @container (max-width: 700px) { .tippe .scales { display: none } }";
+  ".tippe .scales { left: auto; right: 16px; top: 16px } @media (max-width: 1180px) { .tippe .scales { top: 36px } } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 } @container (max-width: 700px) { .tippe .scales { display: none } }";
 
 // What is shown of a motion besides the top itself.
 export const SHOWS = ["show_force", "show_omega", "show_momentum", "show_com_path", "show_track", "show_trace", "show_cone", "follow"];
