@@ -85,8 +85,8 @@ export class Before {
   }
 }
 
-// The inputs that differ between two scenes; of numbers, those that are written differently.
-const differ = (one, other) => (typeof other[0] === "number" && one ? one[1] !== other[1] : one?.[0] !== other[0]);
+// The inputs that differ between two scenes; of numbers, by more than rounding.
+const differ = (one, other) => one?.[0] !== other[0] && !(Math.abs(one?.[0] - other[0]) <= 1e-9 * Math.abs(other[0]));
 function changes(one, other) {
   const [a, b] = [one.state.of, other.state.of];
   if (!a || !b) return [];
