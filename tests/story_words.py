@@ -333,7 +333,15 @@ def energy_left(said, match):
     return f"it is {last / first:.3f} of it" if wrong else None
 
 
-@claims(rf"(?<!by ){N}°")
+@claims(rf"within {N}° on (?:the )?(rough|ice)")
+def stays_within(said, match):
+    tilt = said.others[match[2]].tilt
+    least, half = number(match[1])
+    most = np.abs(tilt - tilt[0]).max()
+    return f"it goes {most:.3g}° away" if most > least + half else None
+
+
+@claims(rf"(?<!by )(?<!within ){N}°")
 def in_range(said, match):
     low, high = np.min(said.run.tilt), np.max(said.run.tilt)
     for run in said.others.values():

@@ -221,7 +221,7 @@ def test_a_link_has_the_map_of_its_own_body(preset):
 @pytest.fixture
 def few_cells(monkeypatch):
     """The map of the page's top has 9 cells at first."""
-    monkeypatch.setattr("app.tabs.maps.maps.MAP", Map(cells=3))
+    monkeypatch.setattr("app.tabs.maps.maps.AT_FIRST", Map(cells=3))
 
 
 def test_the_pages_top_slides(few_cells):

@@ -23,7 +23,7 @@ export const style = `
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
 @media (hover: hover) { .labels .handle::before { content: ""; position: absolute; inset: -24px; border-radius: 50%; } } /* reached without aiming */
 .labels .handle.moves:not(:hover, :focus-visible, :active) { opacity: 0; }
-@media (prefers-reduced-motion: no-preference) { .labels .handle:not(.moves, .found) { animation: pulse 1.2s 1s 2; } } /* at the first rest: it can be grasped */
+@media not (prefers-reduced-motion) { .labels .handle:not(.moves, .found) { animation: pulse 1.2s 1s 2; } }
 @keyframes pulse { 50% { box-shadow: 0 0 0 14px color-mix(in srgb, var(--accent) 30%, transparent); } }
 .labels .handle:active { cursor: grabbing; }
 .labels .handle:active::after { content: attr(data-said); position: absolute; left: 28px; top: -16px; padding: 2px 8px; border-radius: 999px;
