@@ -215,6 +215,7 @@ def main():
     options.add_argument("--again", action="store_true", help="try anew what no test noticed")
     chosen = options.parse_args()
     prepare()
+    reach()  # once, for all children
     start, before = time.monotonic(), known(chosen.again)
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
     todo = (mutant for mutant in sample(chosen.share)

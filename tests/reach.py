@@ -24,7 +24,7 @@ EACH = 3
 
 
 def in_turn(call, arguments):
-    """(argument, call(argument), or None where that did not end), each in a child of this process, one for each core: a
+    """(argument, call(argument), or None where a signal ended it), each in a child of this process, one a core: a
     child has the libraries that are imported here, and what it changes goes with it."""
     fork, waiting, running = multiprocessing.get_context("fork"), iter(arguments), {}
     while True:
@@ -39,10 +39,13 @@ def in_turn(call, arguments):
         for pipe in wait(running):
             argument, child = running.pop(pipe)
             try:
-                yield argument, pipe.recv()
+                answer = pipe.recv()
             except EOFError:
-                yield argument, None
+                answer = None
             child.join()
+            if child.exitcode > 0:  # a mistake here is no answer
+                raise RuntimeError(f"{call.__name__}({argument}) failed")
+            yield argument, answer
 
 
 def _answer(pipe, call, argument):

@@ -90,7 +90,8 @@ class Budget:
     def wait(self):
         """The time to wait before more is read, s."""
         spent, self.spent = self.spent, 0.0
+        if self.left >= 0:
+            return 0.0
         now = time.monotonic()
-        if self.left < 0:
-            Budget._paid = max(Budget._paid, now - spent - SPARE / SHARE) + spent / SHARE
-        return max(0.0, Budget._paid - now) if self.left < 0 else 0.0
+        Budget._paid = max(Budget._paid, now - spent - SPARE / SHARE) + spent / SHARE
+        return max(0.0, Budget._paid - now)
