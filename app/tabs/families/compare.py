@@ -14,6 +14,7 @@ from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
 from app.widgets.cards import alert, flow, note, progress, words
 from app.widgets.forms import Button, Choice, Field
+from app.widgets.once import ONCE
 from app.widgets.plots import decimals, draw, in_language, pane, plain
 from tippe_core import TopError, TruncatedSphere
 
@@ -105,7 +106,6 @@ class Compare:
 
     def compute(self):
         """Computes the map in a thread. If it is impossible, a sentence says why."""
-        a = SPANS[self.kind.value]
         try:
             asked = self._asked()
         except ValueError:
@@ -116,18 +116,23 @@ class Compare:
         span = self._show_span()
         self.cancel.disabled = False
         self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
-        steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
-        self._run = Run(partial(self._work, steps, span), self._done)
+        wanted = asked["I1"], asked["K_R"], asked["mu_s"], self.kind.value
+        self._run = Run(partial(self._work, wanted, span), self._done)
         self._runs.begin(self._run, "map")
 
-    def _work(self, steps, span, run):
+    def _work(self, wanted, span, run):
+        found = ONCE.find(run, (share_map, *wanted), lambda: self._computed(*wanted, span, run))
+        self._runs.post(partial(self._show_rows, run, found.share.size, found, span))
+
+    def _computed(self, I1, K_R, mu_s, kind, span, run):
         shown = time.monotonic()
-        for done, found in steps:
+        for done, found in share_map(I1, K_R, mu_s, SPANS[kind], RATIOS):
             run.look()
             # rarely: on a slow line more messages would queue up, and be under way when a page is closed
-            if found.share.size == done or time.monotonic() > shown + PICTURE_EVERY:
+            if time.monotonic() > shown + PICTURE_EVERY:
                 shown = time.monotonic()
                 self._runs.post(partial(self._show_rows, run, done, found, span))
+        return found
 
     def _show_rows(self, run, done, found, span):
         """Shows the map as far as it has been computed."""

@@ -29,11 +29,11 @@ from app.widgets.download import Download
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage, put_motion
 from app.widgets.forms import Button
+from app.widgets.once import ONCE, OTHERS
 from app.widgets.plots import pane
 from tippe_core import TopError
 
 PICTURE_EVERY = 0.3  # s
-OTHERS = 0.3  # s between two looks for a map that is being computed for another page
 # On a narrow page the run is between the map and what is below it, so that a tap is answered in sight.
 ROOM = """
 :host { display: grid; gap: 16px 24px; padding: 12px 16px 16px; align-items: start;
@@ -207,7 +207,7 @@ class Maps:
                     continue
             run.wait(OTHERS)
         lines(asked)
-        return level, disagreements(level)
+        return level, ONCE.find(run, (disagreements, asked), partial(disagreements, level))
 
     def _compute(self, asked, run):
         shown = 0.0
@@ -289,9 +289,13 @@ class Maps:
         self.settings.show_place((across, up))
         done = unless_stopped(partial(self._ran, asked, across, up),
                               lambda error: setattr(self.run_says, "object", alert(told(error))))  # fmt: skip
-        self._runs.begin(Run(lambda run: one_run(asked, across, up, run.look), done), "maps-run")
+        self._runs.begin(Run(partial(self._run_of, asked, across, up), done), "maps-run")
         self.steady.show(asked, (across, up))
         self.thrown.visible = self._thrown((across, up)) is not None
+
+    @staticmethod
+    def _run_of(asked, across, up, run):
+        return ONCE.find(run, (one_run, asked, across, up), lambda: one_run(asked, across, up, run.look))
 
     def _thrown(self, place):
         """The start of the run at a place in the Lab; None if it has none there."""

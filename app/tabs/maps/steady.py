@@ -11,11 +11,12 @@ from app.model import ends
 from app.model.colours import ACCENT, INK
 from app.model.maps.rates import rates
 from app.model.maps.steady import bifurcation, spins_of
-from app.model.runs import MAPS, Run, Stopped
+from app.model.runs import MAPS, WORK, Run, Stopped
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, told
 from app.widgets.cards import Hidden, alert, note, words
 from app.widgets.failure import ended
+from app.widgets.once import ONCE
 from app.widgets.plots import draw, pane, plain
 from tippe_core import TopError
 
@@ -93,9 +94,10 @@ class Steady:
             for fig in (self.bends, *self.pair):
                 fig.x_range.update(**dict(zip(("start", "end"), spins_of(asked), strict=True)))
         self.says.object = note(say("maps.steady.waits"))
-        work = Run(lambda run: (bifurcation(asked, place, run.look), rates(asked, place, run.look)),
-                   partial(self._done, key, x))  # fmt: skip
-        self._runs.begin(work, "maps-steady", MAPS)
+        wanted = bifurcation, asked, *place
+        work = lambda run: (bifurcation(asked, place, run.look), rates(asked, place, run.look))  # noqa: E731
+        run = Run(lambda run: ONCE.find(run, wanted, partial(work, run)), partial(self._done, key, x))
+        self._runs.begin(run, "maps-steady", WORK if wanted in ONCE else MAPS)
 
     def _done(self, key, x, result):
         if key != self._key:
