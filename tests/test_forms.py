@@ -5,6 +5,8 @@ from axe import violations
 from components import *  # noqa: F403
 
 from app.text import speaking
+from app.widgets.cards import column, flow, words
+from app.widgets.form import Form
 from app.widgets.forms import Button, Checks, Field, Menu, Stretch, TextFile
 
 pytestmark = pytest.mark.served
@@ -90,6 +92,41 @@ def test_a_stretch_names_its_range_and_the_nearest(form):
     assert stretch.value == [0.25, 0.75]
     found.page.get_by_role("button", name="Take 0.750 s").click()
     found.until(lambda: stretch.value == [0.75, 0.75])
+
+
+def test_in_one_form_each_part_is_heard_and_shows_what_python_says(form):
+    found, heard = form(), []
+    parts, says = parts_of_one(), words("before")
+    whole = Form(flow(parts["primary"], parts["field"]), column(says, parts["menu"]), parts["outline"])
+    parts["primary"].on_click(lambda: heard.append(parts["field"].value))
+    parts["menu"].on("value", lambda event: says.param.update(object="<b>after</b>", visible=True))
+    page = found.show(whole)
+    page.get_by_role("button", name="Go").dblclick()
+    found.until(lambda: len(heard) == 2)
+    page.get_by_role("textbox", name="mass").fill("7")
+    page.get_by_role("textbox", name="mass").press("Enter")
+    found.until(lambda: parts["field"].value == "7")
+    page.get_by_role("button", name="Go").click()  # none of the clicks is taken back by an answer
+    found.until(lambda: heard == ["0.3", "0.3", "7"])
+    page.get_by_label("Up").select_option("tilt")
+    page.get_by_text("after").wait_for()
+    found.put(says, visible=False)
+    parts["field"].refuse("mass is 7 g. Allowed is 0 to 5 g.", "5", "0.3")
+    found.send()
+    page.get_by_text("after").wait_for(state="hidden")
+    page.get_by_role("button", name="Take 5").click()
+    found.until(lambda: parts["field"].value == "5")
+    page.get_by_role("button", name="Wait").click(force=True)
+    assert parts["outline"].clicks == 0 and [name for _, name, _ in found.told] == ["sent"] * 6
+
+
+def parts_of_one():
+    return {
+        "primary": Button("Go", kind="primary"),
+        "outline": Button("Wait", disabled=True),
+        "field": Field("mass", value="0.3", shows="mass", unit="g"),
+        "menu": Menu("Up", options={"spin": "spin", "tilt": "tilt"}, value="spin"),
+    }
 
 
 def test_a_file_is_read_and_one_too_large_is_refused(form):

@@ -52,7 +52,7 @@ EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", 
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
 HANDS = ("NumberControls", "Field", "Menu", "Choice", "Checks", "Stretch", "TextFile", "Head", "Painted",
          "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "Moments", "Range1d", "ColumnDataSource",
-         "Location", "Button")  # fmt: skip
+         "Location", "Button", "Form")  # fmt: skip
 
 
 def value(draw):
@@ -239,8 +239,8 @@ async def each_attribute(url):
     await visitors.open_rooms(page)
     visitor = await Visitor.enter(url, page.visitor.token, pull=False)  # a second socket of the same session
     components = {}
-    for id, (name, _) in page.visitor.models.items():
-        if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
+    for id, name in page.visitor.kinds():
+        if (isinstance(id, tuple) or re.fullmatch(r"[A-Z]\w*\d+", name)) and attributes_of(re.sub(r"\d+$", "", name)):
             components.setdefault(re.sub(r"\d+$", "", name), []).append(id)
     assert {"NumberControls", "Head", "Menu", "Field", "Top3D", "TextFile"} <= set(components)
     for name, ids in components.items():
@@ -361,6 +361,10 @@ def look(*events, models, buffers=()):
     ("Surface3D1", "hand", [[], ["end", 0.5, 7]], [["a", 0.5, 7], ["end", True, 7], [0.5, 7]]),
     ("TopsMap1", "state", [None, 7, "x", [1, [2]], {"type": "map", "entries": [["a", 1]]}],
      [[0] * (MOST + 1), [[[[[1]]]]], 1e16, float("inf"), {"type": "slice"}, {"id": "p1"}, {"a": 1}, "x" * 20_000]),
+    ("Form1", "sent", [[1, 1, "value", "7"], [2, 2, "value", "b"], [3, 3, "clicks", 1]],
+     [None, [1, 1, "value"], [1, 1, "value", "x" * 61], [1, 1, "label", "a"], [1, 1, 7, "a"], [1, 2, "value", "c"],
+      [1, 3, "clicks", -1], [-1, 3, "clicks", 1], [1, 0, "visible", True], [1, 4, "value", "a"], [1, -1, "value", "a"],
+      [1, True, "value", "a"], [1, "1", "value", "a"], [1, 4, "object", "a"]]),
     ("New1", "anything", [], [None, 7]),
     ("figure", "inner_width", [300], [None, "300", float("inf")]),
     ("figure", "renderers", [], [[], None]),
@@ -372,6 +376,11 @@ def look(*events, models, buffers=()):
 def test_what_the_browser_may_change(kind, attribute, takes, refuses):
     has = {"objects": [1, 2, 3], "options": ["a", "b"], "max_length": 20, "start": 0, "end": 1,
            "data": {"x": [], "z": []}}  # fmt: skip
+    if kind == "Form1":
+        inside = [{"kind": name, "at": i + 1} for i, name in enumerate(("Field", "Menu", "Button", "words"))]
+        options = {"options": {"one": "a", "two": "b"}}
+        has |= {"parts": json.dumps({"tree": [{"kind": "column", "at": 0, "inside": inside}]}),
+                "state": json.dumps({"of": [{}, {}, options, {}, {}]})}  # fmt: skip
     if kind in ("Choice1", "Menu1", "Checks1"):
         has["options"] = {"one": "a", "two": 7}
     known = type(f"Probe{kind}", (DataModel,) if kind.endswith("1") else (), {"__init__": lambda self: None})

@@ -168,7 +168,8 @@ def test_the_button_looks_closer_around_the_bead_and_never_beyond_the_map(tab):
 
 def test_as_many_reasons_as_there_are_can_be_gone_to():
     tab = Maps()
-    _, *parts = tab.disagree
+    [form] = tab.disagree
+    _, *parts = form.views
     says, shows = [part.object for part in parts[::2]], parts[1::2]
     assert 2 < len(shows) == len(says) == len(tab._ones)
     assert "630 of the 1,465 runs" in says[0] and "561 of them: they come onto the stem" in says[0]

@@ -96,7 +96,7 @@ def test_where_no_column_is_known_the_page_asks_at_its_top(language):
         assert f'role="alert">{says}<' in tab.said.object
         over = next(part for part in tab.view.objects if "over" in part.css_classes)
         assert over.objects[:2] == [tab.said, tab.over] and tab.over.objects == [tab.columns.view]
-        assert len(tab.columns.view.objects) == 4  # three columns, and the frame rate
+        assert len(tab.columns.view.objects[0].views) == 4  # three columns, and the frame rate
 
 
 def test_a_file_that_cannot_be_read_says_what_is_still_shown(fitted):
@@ -183,9 +183,15 @@ def test_a_link_keeps_its_film_when_it_is_opened():
 # ---- a column that is chosen by hand ----
 
 
+def row(tab, i):
+    """The parts that stand in the row of the i-th column."""
+    [form] = tab.columns.view
+    return form.views[i].objects
+
+
 def chosen(tab, i):
     """(the menu of what the i-th column is, that of its unit, whether the page says that it was guessed)."""
-    _, quantity, unit, _, guessed = tab.columns.view.objects[i].objects
+    _, quantity, unit, _, guessed = row(tab, i)
     return quantity, unit, "guessed" in guessed.object
 
 

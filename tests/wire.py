@@ -102,9 +102,28 @@ class Visitor:
         return {id for each in part.values() for id in self.unknown(each)}
 
     def find(self, kind, *names):
-        """The ids of the models of this type with these attributes, in document order."""
-        return [id for id, (name, attributes) in self.models.items()
-                if re.fullmatch(kind + r"\d*", name) and all(each in attributes for each in names)]  # fmt: skip
+        """The ids of the models of this type with these attributes, in document order, and (id, number) of each such
+        part of a Form."""
+        return [id for id, name in self.kinds()
+                if re.fullmatch(kind + r"\d*", name) and all(each in self.shown(id) for each in names)]  # fmt: skip
+
+    def kinds(self):
+        """(id, type) of all models, and ((id, number), kind) of all parts of Forms."""
+        for id, (name, attributes) in self.models.items():
+            yield id, name
+            if re.fullmatch(r"Form\d+", name):
+                tree = json.loads(attributes["parts"])["tree"]
+                while tree:
+                    yield (id, tree[0]["at"]), tree[0]["kind"]
+                    tree = tree[0].get("inside", []) + tree[1:]
+
+    def shown(self, id):
+        """{attribute: value} of a model, or of a part of a Form, as far as the server has sent it."""
+        if not isinstance(id, tuple):
+            return self.models[id][1]
+        form, at = id
+        of, file = json.loads(self.shown(form)["state"])["of"], self.shown(form).get("file") or [None]
+        return of[at] | ({"file": file[1:]} if file[0] == at else {})
 
     def group(self, name):
         """The id of the group of inputs that has this one."""
@@ -114,9 +133,7 @@ class Visitor:
 
     def choice(self, value):
         """The id of the choice by buttons that has this value."""
-        [found] = [
-            id for id in self.find("Choice", "options") if f'"{value}"' in json.dumps(self.models[id][1]["options"])
-        ]
+        [found] = [id for id in self.find("Choice", "options") if f'"{value}"' in json.dumps(self.shown(id)["options"])]
         return found
 
     def component(self, kind):
@@ -141,7 +158,9 @@ class Visitor:
         return message
 
     async def set(self, model, attribute, value):
-        """Changes a model as a browser does; returns the id of the message."""
+        """Changes a model, or a part of a Form, as a browser does; returns the id of the message."""
+        if isinstance(model, tuple):
+            model, attribute, value = model[0], "sent", [self.count, model[1], attribute, value]
         event = {"kind": "ModelChanged", "model": {"id": model}, "attr": attribute, "new": value}
         return await self.say("PATCH-DOC", {"events": [event]})
 
@@ -155,7 +174,7 @@ class Visitor:
     @property
     def says(self):
         """All text of the page that is HTML."""
-        texts = (attributes.get("text") for _, attributes in self.models.values())
+        texts = (self.shown(id).get("object" if kind == "words" else "text") for id, kind in self.kinds())
         return "\n".join(html.unescape(text) for text in texts if isinstance(text, str))
 
     async def _fragment(self):
@@ -235,7 +254,7 @@ class Page:
 
     def labelled(self, kind, label):
         """The id of the model of this kind with this label."""
-        [found] = [id for id in self.visitor.find(kind, "label") if self.visitor.models[id][1]["label"] == label]
+        [found] = [id for id in self.visitor.find(kind, "label") if self.now(id, "label") == label]
         return found
 
     async def head(self, name, value=""):
@@ -246,7 +265,7 @@ class Page:
 
     def now(self, model, attribute, default=None):
         """The present value of an attribute, as far as the server has sent it."""
-        return self.visitor.models[model][1].get(attribute, default)
+        return self.visitor.shown(model).get(attribute, default)
 
     async def set(self, model, attribute, value):
         """Changes a model as a browser does, and waits for the answer."""

@@ -4,8 +4,10 @@ This file lists what each part of the page may be sent, with type, length and si
 libraries do not check: numpy accepts a type of any width from a message, and Bokeh creates any model that it describes.
 """
 
+import json
 import re
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 from app.model.build.builder import LARGEST_FILE
@@ -93,6 +95,20 @@ def entries_of(value):
     return dict(entries)
 
 
+def _is_of_form(value, of):
+    """[count, number of a part of the Form, what of it, its new value], of which the part may be sent the last."""
+    if not row(COUNT, COUNT, SHORT, ANYTHING).fits(value, of):
+        return False
+    _, at, name, new = value
+    kind = {part["at"]: part["kind"] for part in _parts_of(json.loads(of.parts)["tree"])}.get(at)
+    allowed = CHANGES.get(kind, {}).get(name)
+    return allowed is not None and allowed.fits(new, SimpleNamespace(**json.loads(of.state)["of"][at]))
+
+
+def _parts_of(tree):
+    return [part for each in tree for part in (each, *_parts_of(each.get("inside", ())))]
+
+
 def _is_column(value, of):
     entries = entries_of(value)
     return (entries is not None and set(entries) == set(of.data)
@@ -100,10 +116,12 @@ def _is_column(value, of):
 
 
 FLAG = Value("true or false", lambda value, of: type(value) is bool)
+ANYTHING = Value("anything", lambda value, of: True)
 NONE = Value("null", lambda value, of: value is None)
 COUNT = Value("a whole number from 0", lambda value, of: type(value) is int and 0 <= value <= LARGEST)
 NUMBER, TEXT, SHORT = number(), text(), text(300)
 PLAIN = Value("plain and bounded", _plain)
+OF_FORM = Value("a count, one of its parts, and what that may be sent", _is_of_form)
 COLUMNS = Value("a few numbers or words in each of its columns", _is_column)
 # What depends on the model as it is now.
 CHOSEN = Value("one of its values", lambda value, of: any(type(value) is type(each) and value == each
@@ -149,6 +167,7 @@ CHANGES = {
     "Checks": {"value": CHECKED},
     "Choice": {"value": CHOSEN},
     "Download": {"clicks": COUNT},
+    "Form": {"sent": OF_FORM},
     "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT, SHORT, COUNT),
                      "piece": row(text(200_000), COUNT, COUNT, COUNT, SHORT, COUNT)},
     "Field": {"value": text(60)},

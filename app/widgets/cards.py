@@ -2,6 +2,7 @@
 
 import panel as pn
 
+from app.widgets.form import joined
 from app.widgets.typeset import typeset
 
 # The stage at the right of the other cards. On a narrow page both give their cards to one column.
@@ -65,7 +66,7 @@ def column(*parts, **options):
 
 def areas(sheet, inside=(), /, **content):
     """Parts that a style sheet arranges by their names, which are their classes; inside: sheets of each."""
-    parts = [column(*part, css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
+    parts = [column(*joined(part), css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
     return column(*parts, stylesheets=[sheet])
 
 
@@ -97,7 +98,7 @@ def swatch(colour, text, style="solid"):
 def card(title, *content):
     """A part of a room, with its title."""
     styles = {"height": "max-content", "box-sizing": "border-box", "overflow": "hidden"}
-    return column(words(f"<h2>{title}</h2>"), *content, styles=styles)
+    return column(*joined([words(f"<h2>{title}</h2>"), *content]), styles=styles)
 
 
 def flow(*content, margin=(6, 0)):
@@ -123,7 +124,7 @@ class Hidden(pn.Column):
     def _fill(self, event):
         make, self._make = self._make, None
         if make:
-            self.objects = make()
+            self.objects = joined(make())
 
 
 def first(made):

@@ -22,6 +22,7 @@ class Download(Bundled):
     file = param.List(default=[0, "", ""], doc="[number of files so far, the newest one in base64, its name]")
     disabled = param.Boolean(default=False)
     making = param.Boolean(default=False)
+    SENDS = ("clicks",)
 
     def __init__(self, runs, state, make, **params):
         super().__init__(**params)

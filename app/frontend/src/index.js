@@ -21,6 +21,7 @@ import { renderCopy as Copy } from "./widgets/copy.js";
 import { renderDownload as Download } from "./widgets/download.js";
 import { renderMeasuredFile as MeasuredFile } from "./widgets/measured_file.js";
 import { renderEmbed as Embed } from "./widgets/embed.js";
+import { renderForm as Form } from "./widgets/form.js";
 import { renderFilm as Film } from "./widgets/film.js";
 import { renderFilmStage as FilmStage } from "./widgets/film_stage.js";
 import { renderFrame as Frame } from "./widgets/frame.js";
@@ -46,7 +47,7 @@ window.__tippe = { time: timeOf, tops: topsOf, wear }; // for tests only: there 
 
 // Panel finds a component by the name of its Python class.
 const components = {
-  Address, Button, Checks, Choice, Connection, Copy, Download, Embed, Failure, Field, Film, FilmStage, Fold, Frame, Guide, Head,
+  Address, Button, Checks, Choice, Connection, Copy, Download, Embed, Failure, Field, Film, FilmStage, Fold, Form, Frame, Guide, Head,
   LabView, LessonView, Lines, Look, MeasuredFile, Menu, Moments, NumberControls, Painted, Paper, Phone, Photo, PlaneView, Said,
   SectionView, ShareHead, Steps, Stretch, Surface3D, Symbols, TextFile, Top3D, TopsMap,
 };

@@ -163,6 +163,13 @@ interface TextFileModel extends Model {
   sent: [text: string, count: number, size: number];
 }
 
+interface FormModel extends Model {
+  parts: string;
+  state: string;
+  sent: [count: number, at: number, name: string, value: any];
+  file: [at: number, count: number, base64: string, name: string] | [];
+}
+
 interface FoldModel extends Model {
   label: string;
   get_child(name: string): HTMLElement;

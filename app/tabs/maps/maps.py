@@ -28,6 +28,7 @@ from app.widgets.copy import Copy
 from app.widgets.download import Download
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage, put_motion
+from app.widgets.form import joined
 from app.widgets.forms import Button
 from app.widgets.once import ONCE, OTHERS
 from app.widgets.plots import pane
@@ -247,10 +248,12 @@ class Maps:
             self.worst.object = note(of_worst(level))
             says = [words(of_reason(*each, asked)) for each in told_of] or [words(note(say("maps.agree")))]
             shows = [Button(say("maps.show_one"), partial(self.go, *one, cell=True), kind="link") for one in self._ones]
-            self.disagree.objects = [
-                *([words(f"<h2>{say('maps.disagree')}</h2>")] if told_of else []),
-                *(part for pair in zip_longest(says, shows) for part in pair if part is not None),
-            ]
+            self.disagree.objects = joined(
+                [
+                    *([words(f"<h2>{say('maps.disagree')}</h2>")] if told_of else []),
+                    *(part for pair in zip_longest(says, shows) for part in pair if part is not None),
+                ]
+            )
 
     # ---- one run ----
 

@@ -10,6 +10,7 @@ from app.model.measured.table import taken_as
 from app.text import say, written
 from app.widgets import cards
 from app.widgets.cards import flow, note, words
+from app.widgets.form import Form
 from app.widgets.forms import Field, Menu, typed_number
 
 FIRST = 4  # values
@@ -21,8 +22,7 @@ class Columns:
 
     def __init__(self, changed, wrong):
         self._changed, self._wrong, self._table, self._errors = changed, wrong, None, ()
-        self.rate, self._of_rate = None, cards.column()
-        self.view = cards.column(margin=(8, 0))
+        self.rate, self.view = None, cards.column(margin=(8, 0))
 
     @property
     def frames_a_second(self):
@@ -36,13 +36,13 @@ class Columns:
         """Makes an empty field for it."""
         self.rate = Field(say("measure.rate"), shows=say("measure.rate"))
         self.rate.on("value", lambda event: self._changed(self._table))
-        self._of_rate.objects = [self.rate]
+        return self.rate
 
     def show(self, table):
         """Shows a new table."""
         self._table, self._errors = table, ()
-        self._ask_rate()
-        self.view.objects = [*(self._row(i, column) for i, column in enumerate(table.columns)), self._of_rate]
+        self._of_rate = flow(self._ask_rate())
+        self.view.objects = [Form(*(self._row(i, column) for i, column in enumerate(table.columns)), self._of_rate)]
         self.show_rate()
 
     def show_rate(self):

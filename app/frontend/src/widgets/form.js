@@ -1,0 +1,77 @@
+// Words, and what a hand sets or presses beside them, in one component; Python knows each by its number.
+import { renderButton as Button } from "../controls/button.js";
+import { renderChoice as Choice } from "../controls/choice.js";
+import { renderField as Field } from "../controls/field.js";
+import { renderTextFile as TextFile } from "../controls/file.js";
+import { renderChecks as Checks, renderMenu as Menu } from "../controls/menu.js";
+import { renderStretch as Stretch } from "../controls/stretch.js";
+import { set } from "../data.js";
+import { atEnd, follow, lifeOf } from "../life.js";
+import { part } from "../parts.js";
+import { modelOf } from "../stand_in.js";
+import { renderDownload as Download } from "./download.js";
+
+/** @type {Record<string, { render: (rendering: any) => any, sends: string[] }>} */
+const kinds = {
+  Button: { render: Button, sends: ["clicks"] }, Checks: { render: Checks, sends: ["value"] }, Choice: { render: Choice, sends: ["value"] },
+  Download: { render: Download, sends: ["clicks"] }, Field: { render: Field, sends: ["value"] }, Menu: { render: Menu, sends: ["value"] },
+  Stretch: { render: Stretch, sends: ["pulled"] }, TextFile: { render: TextFile, sends: ["sent"] },
+};
+const style = `.column { display: flex; flex-direction: column; } .column > * { flex: 0 0 auto; align-self: stretch; min-width: 0; box-sizing: border-box; } [hidden] { display: none !important; }`;
+
+class Form {
+  /** @param {Rendering<FormModel>} rendering */
+  constructor(rendering) {
+    this.model = rendering.model;
+    this.count = this.model.sent[0];
+    this.isShowing = false;
+    this.late = new Map(); // of what a hand has set: the message of which Python has not said that it was heard
+    /** @type {Map<number, any>} */
+    this.parts = new Map(); // each a stand-in for its model, with its values
+    const life = lifeOf(rendering), { of } = JSON.parse(this.model.state), { tree, sheets } = JSON.parse(this.model.parts);
+    this.sheets = sheets;
+    rendering.el.replaceChildren(part("style", {}, style), part("div", { class: "column" }, ...tree.map((given) => this.make(given, of))));
+    this.model.on("state", () => this.show());
+    this.model.on("file", () => this.put(this.model.file[0], { file: this.model.file.slice(1) }));
+    atEnd(life, () => this.parts.forEach((_, at) => this.put(at, { remove: {} })));
+  }
+
+  make({ kind, at, style: looks, sheet, inside }, of) {
+    const place = part("div", { style: looks, class: kind }), model = modelOf(of[at]);
+    this.parts.set(at, model);
+    follow(model, ["visible"], () => (place.hidden = !model.visible));
+    if (kind === "column") {
+      place.append(...inside.map((given) => this.make(given, of)));
+      return place;
+    }
+    const el = part("div");
+    place.attachShadow({ mode: "open" }).append(...(kind === "words" ? [part("style", {}, this.sheets[sheet])] : []), el);
+    if (kind === "words") follow(model, ["object"], () => (el.innerHTML = model.object));
+    else kinds[kind].render({ model, el, view: {} });
+    for (const name of kinds[kind]?.sends ?? []) model.on(name, () => this.isShowing || this.send(at, name, model[name]));
+    return place;
+  }
+
+  send(at, name, value) {
+    this.late.set(`${at} ${name}`, (this.count += 1));
+    set(this.model, "sent", [this.count, at, name, value]);
+  }
+
+  // What is new; what a hand has set meanwhile stays.
+  show() {
+    const { heard, of } = JSON.parse(this.model.state);
+    for (const [at, values] of of.entries()) {
+      const model = this.parts.get(at), isNew = ([name, value]) => !(this.late.get(`${at} ${name}`) > heard) && JSON.stringify(value) !== JSON.stringify(model[name]);
+      this.put(at, Object.fromEntries(Object.entries(values).filter(isNew)));
+    }
+  }
+
+  put(at, values) {
+    this.isShowing = true;
+    Object.assign(this.parts.get(at), values);
+    this.isShowing = false;
+  }
+}
+
+/** @param {Rendering<FormModel>} rendering */
+export const renderForm = (rendering) => void new Form(rendering);
