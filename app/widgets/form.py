@@ -69,11 +69,6 @@ class Form(Bundled):
         finally:
             self.state = self._state()
 
-    def select(self, selector=None):
-        """With its parts, as of other layouts of Panel."""
-        return super().select(selector) + [found for part in self._parts for found in part.select(selector)
-                                           if not isinstance(part, pn.Column)]  # fmt: skip
-
 
 def shown(part):
     """{name: value} of what a part shows."""

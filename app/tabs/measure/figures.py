@@ -68,7 +68,10 @@ class Pictures:
         pad = 0.02 * (last - first)
         x_range = Range1d(first - pad, last + pad)
         high = HEIGHT if len(data.series) < 3 else SMALL
-        self._parts = {name: _Picture(name, series, x_range, high) for name, series in data.series.items()}
+        last = [*data.series][-1]
+        self._parts = {
+            name: _Picture(name, series, x_range, high, name == last) for name, series in data.series.items()
+        }
         figures = [fig for part in self._parts.values() for fig in (part.fig, part.rest)]
         spans = [rule(fig, "height", None, level="overlay", line_color=COLOURS["accent"], line_width=1.5)
                  for fig in figures]  # fmt: skip
@@ -80,7 +83,6 @@ class Pictures:
         figures[0].js_on_change("inner_width", call("moveLines", spans=spans, clock="film"))
         figures[0].add_layout(Label(x=start, y=high - 32, y_units="screen", x_offset=5, text=say("measure.begins"),
                                     text_color=FAINT, text_font_size="12px"))  # fmt: skip
-        figures[-1].xaxis.visible = True
         self.view.objects = [
             words(f'<div style="{HEAD}"><b>{say("measure.overlay")}</b><span class="key">{source}</span></div>'),
             *(pane for part in self._parts.values() for pane in part.panes),
@@ -94,17 +96,18 @@ class Pictures:
 
 
 class _Picture:
-    """One quantity: fig with the points and the curve, rest with the residuals."""
+    """One quantity: fig with the points and the curve, rest with the residuals; timed: with an axis of time below."""
 
-    def __init__(self, name, series, x_range, high):
+    def __init__(self, name, series, x_range, high, timed):
         self.name, self.size = name, size_of(name)
         title = say(f"measure.quantities.{name}")
         look = {"x_range": x_range, "min_border_left": LEFT}
-        self.fig = plain(say("measure.picture", name=title), high, **look)
-        self.rest = plain(say("measure.rest", name=title), REST, y_range=(-3.5, 3.5), **look)
+        self.fig = plain(say("measure.picture", name=title), high, x_axis_location=None, **look)
+        self.rest = plain(say("measure.rest", name=title), REST, y_range=(-3.5, 3.5), **look,
+                          x_axis_location="below" if timed else None)  # fmt: skip
         self.curve, self.left = ColumnDataSource(NOTHING), ColumnDataSource(NOTHING)
         for fig in (self.fig, self.rest):
-            fig.xaxis.visible, fig.xgrid.visible = False, False
+            fig.xgrid.visible = False
             fig.yaxis.update(axis_line_color=None, major_tick_line_color=None)
         self._dots(series)
         self.rest.add_layout(BoxAnnotation(bottom=-1, top=1, fill_color=GREY, fill_alpha=0.18, line_color=None))
