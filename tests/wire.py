@@ -232,7 +232,7 @@ class Page:
                     for event in content["events"]:
                         if event["kind"] == "ModelChanged" and event["model"]["id"] in self.visitor.models:
                             self.visitor.models[event["model"]["id"]][1][event["attr"]] = event["new"]
-                        if event.get("attr") == "sent":
+                        if event.get("attr") == "sent" and event["model"]["id"] == self._painted:
                             await self.visitor.set(self._painted, "painted", event["new"])
                 async with self._heard:
                     self._replies[answered] = kind
