@@ -30,6 +30,7 @@ from app.widgets.cards import alert, areas, column, flow, note, words
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage
 from app.widgets.forms import Button, Checks, Choice
+from app.widgets.once import ONCE
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
@@ -258,8 +259,8 @@ class Measure:
         self.said.object = self._notes
         self.start.disabled, self.found.object = False, note(say("measure.ready"))
         top, scales, *_ = self._body
-        model = self._models()[1]
-        self._guess = Run(lambda run: (placed(model, data), kept(data, top, scales)), unless_stopped(self._drawn))
+        model, work = self._models()[1], lambda: (placed(model, data), kept(data, top, scales))
+        self._guess = Run(self._shared(placed, work), unless_stopped(self._drawn))
         self._runs.begin(self._guess, "guess")
         if self._run:
             self._run.forget()
@@ -270,6 +271,11 @@ class Measure:
     @property
     def _is_whole_example(self):
         return bool(self._example) and self._table is self._read and self._part == (self.part.start, self.part.end)
+
+    def _shared(self, kind, work):
+        """The work of a Run, which is done once for all pages if it is about an example as it is."""
+        asked = kind, self._example, self.law.value, self._loose
+        return partial(ONCE.find, asked=asked, work=work) if self._is_whole_example else lambda run: work()
 
     @property
     def _is_at_hand(self):
@@ -295,8 +301,7 @@ class Measure:
             return
         data, both, fits = self._data.between(*self._part), self._models(), self._saved
         if self._is_whole_example:
-            asked_for = self._example, self.law.value, self._loose
-            work = lambda run: found_of_example(*asked_for)  # noqa: E731
+            work = self._shared(found_of_example, partial(found_of_example, self._example, self.law.value, self._loose))
         else:
             work = lambda run: found_again(data, both, fits) if fits else found(data, both)  # noqa: E731
         self._again = bool(fits)
