@@ -106,13 +106,13 @@ export class Answer {
   x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
 
   draw() {
-    const { clientWidth: width, clientHeight: height } = this.plot, { scene, name, texts } = this, said = texts.answers[name];
+    const { clientWidth: width, clientHeight: height } = this.plot, { scene, name, texts } = this, wording = texts.answers[name];
     this.choice.show(name);
-    this.title.textContent = said.question;
-    this.plot.setAttribute("aria-label", said.question);
-    this.drawing.setAttribute("aria-label", said.note);
+    this.title.textContent = wording.question;
+    this.plot.setAttribute("aria-label", wording.question);
+    this.drawing.setAttribute("aria-label", wording.note);
     if (!width || !scene) return;
-    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note,
+    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), wording.note,
       ...(this.before && name !== "trace" ? [texts.note_then] : []), name === "trace" && scene.run?.trace ? ` ${scene.run.trace}` : "");
     Object.assign(this, { width, height, bottom: height - FOOT });
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
@@ -164,25 +164,25 @@ export class Answer {
   }
 
   energy() {
-    const { curves, texts } = this, said = texts.answers.energy, start = curves.value(0, ENERGY);
+    const { curves, texts } = this, wording = texts.answers.energy, start = curves.value(0, ENERGY);
     const levels = this.levels(), { y, found } = this.axes(0, 1.03 * Math.max(this.range(ENERGY)[1], ...levels.map(([, level]) => level)), "mm");
     const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${LEFT},${this.bottom}`;
     const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
     const words = [], put = (share, height, text, more, kind) => words.push(
       drawn("text", { class: `word halo ${kind}`, x: this.x(t(share)), y: height }, text),
       ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height, dy: "1.3em" }, more)] : []));
-    if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin, "", "washed");
+    if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, wording.spin, "", "washed");
     const long = 112 / (this.right - LEFT), wide = 130 / (this.right - LEFT);
     const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > LINE);
     const free = [0.4, 0.3, 0.2, 0.08, 0.02].find(isFree), stands = free ?? 0.4;
-    const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
+    const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? wording.height_same : wording.height;
     const over = (column) => Math.min(...[0, 0.5, 1].map((of) => at(stands + of * long, column))) - 8;
     const isHigh = this.bottom - at(stands, HEIGHT) > ROOM && this.bottom - at(stands + long, HEIGHT) > ROOM;
     // above the area of the height; if the energy leaves no room there, inside it; if it is too low, above both
     const [height, kind] = free ? [over(HEIGHT), "washed"] : isHigh ? [this.bottom - 10, "inside"] : [over(ENERGY), ""];
     const under = (share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY), kind ? Infinity : height - LINE);
     const lost = [0.42, 0.3, 0.55].find((share) => under(share) - y(start) > 2 * ROOM);
-    if (lost) put(lost, (under(lost) + y(start)) / 2, said.heat, said.heat_by, "");
+    if (lost) put(lost, (under(lost) + y(start)) / 2, wording.heat, wording.heat_by, "");
     put(stands, height, say(texts, text, { least: [least, 0], most: [most, 0] }), "", kind);
     return [
       ...found,
@@ -204,9 +204,9 @@ export class Answer {
   }
 
   spin() {
-    const { curves, texts } = this, said = texts.answers.spin;
+    const { curves, texts } = this, wording = texts.answers.spin;
     const [least, most] = this.range(SPIN, TURNING), room = 0.06 * (most - least || 1);
-    const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, said.unit, 60);
+    const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, wording.unit, 60);
     let widest = 0, apart = 0; // where the two lines are farthest apart
     for (let share = 0.2; share < 0.7; share += 0.05) {
       const gap = Math.abs(y(curves.at(share * curves.end, SPIN)) - y(curves.at(share * curves.end, TURNING)));
@@ -215,10 +215,10 @@ export class Answer {
     const words = [], put = (share, column, side, text) => words.push(drawn("text", {
       class: `word halo ${column === SPIN ? "own" : ""}`, x: this.x(share * curves.end), y: y(curves.at(share * curves.end, column)) + (side > 0 ? 20 : -10),
     }, text));
-    if (apart < 2 * ROOM) put(0.4, SPIN, curves.at(0.4 * curves.end, SPIN) > (most + Math.min(least, 0)) / 2 ? 1 : -1, said.both);
+    if (apart < 2 * ROOM) put(0.4, SPIN, curves.at(0.4 * curves.end, SPIN) > (most + Math.min(least, 0)) / 2 ? 1 : -1, wording.both);
     else {
-      put(widest, TURNING, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? -1 : 1, said.above);
-      put(widest, SPIN, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? 1 : -1, said.own);
+      put(widest, TURNING, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? -1 : 1, wording.above);
+      put(widest, SPIN, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? 1 : -1, wording.own);
     }
     return [
       ...found, ...this.then(y, SPIN), drawn("polyline", { class: "turning", points: curves.points(this.x, y, TURNING) }),
