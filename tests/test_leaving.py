@@ -232,7 +232,7 @@ async def flood(here, monkeypatch):
 
     def clicked(download, event):
         click(download, event)
-        heard.append((download._asked[1][0].constants.K_J, event.new))
+        heard.append((download._requested[1][0].constants.K_J, event.new))
 
     click, heard = Download._clicked, []
     monkeypatch.setattr(Download, "_clicked", clicked)

@@ -213,7 +213,7 @@ def test_the_run_of_a_place_is_that_of_its_cell(level):
 
 
 @pytest.mark.parametrize(
-    ("name", "request"),
+    ("name", "asked"),
     {
         "tilt": {"up_range": (1.0, 200.0)},
         "spin_from": {"across_range": (5.0, 5.0)},

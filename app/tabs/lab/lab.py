@@ -243,13 +243,13 @@ class LabTab:
         law, numbers = start.law, [name for name in OF_LAW[start.law] if name != "mu"]
         if self.view.level != LEVELS[0] and start.rolling is None:
             numbers.append("slip")
-        inputs_of, ordinary = inputs(), scene.motions["ordinary"]
+        wordings, ordinary = inputs(), scene.motions["ordinary"]
         (headline, why), dims, toy = scene.wording, dimensions(scene.toy), [repr(scene.toy), say("main.own")]
         if isinstance(scene.toy, str):
             toy = [scene.toy, listed("build.presets")[scene.toy]["name"]]
         return {
             "table": scene.table,
-            "rubs": [[name, inputs_of[name]["typed"], inputs_of[name]["unit"]] for name in numbers] * slides,
+            "rubs": [[name, wordings[name]["typed"], wordings[name]["unit"]] for name in numbers] * slides,
             "of": {
                 "law": [law, f"{view['law']}: {listed('planes.law')[law]}", f"{view['law']}:"],
                 **{name: [getattr(start, name), self._named(start, name)] for name in inputs_of(law)},
