@@ -6,6 +6,7 @@ import { part, read, say, written } from "../parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, NARROW = 260, WIDE = 5.6, APART = 16; // px: least width of the strip of ends and of a track with marks, a letter below it, a gap between words
+const TYPE = 14; // px: the font size with such letters
 const NEXT = 6; // px between words if one of them is at a mark
 
 // A value between named marks, in words.
@@ -247,10 +248,11 @@ export class Control {
     else {
       const [left, right] = large[0] < next[0] ? [large, next] : [next, large];
       const [from, at] = [left, right].map(([start]) => (start - low) / (high - low));
-      const letters = WIDE * (left[3].length + right[3].length), room = (at - from) * WIDTH > WIDE * left[3].length + APART;
+      const wide = (WIDE * Math.max(TYPE, parseFloat(getComputedStyle(this.element).fontSize) || 0)) / TYPE;
+      const letters = wide * (left[3].length + right[3].length), room = (at - from) * WIDTH > wide * left[3].length + APART;
       if (room || letters + APART < (1 - first) * WIDTH) line.append(part("span", {}, left[3]));
       if (room) Object.assign(line.children[0].style, { position: "absolute", left: this.along(from) }); // below its own part
-      if ((room || at * WIDTH > WIDE * left[3].length + APART) && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
+      if ((room || at * WIDTH > wide * left[3].length + APART) && (1 - at) * WIDTH > wide * right[3].length + APART && letters < WIDTH) {
         line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
       }
       line.append(part("span", { style: "margin-left: auto" }, right[3]));
