@@ -19,8 +19,7 @@ CODES = {
     # any quantity
     "out-of-range": "outside the range that `allowed` gives as a formula",
     "not-finite": "nan, infinity, or no number at all",
-    "wrong-kind": "of another type than those that `allowed` names as Python does",
-    "other-kind": "of another type than those that the annotation of an argument names",
+    "wrong-kind": "of another type or form than those that `allowed` names as Python does",
     "many": "arrays in the place of numbers",
     "wrong-count": "too many values, or too few",
     "not-whole": "not a whole number of that range",
@@ -136,18 +135,16 @@ def finite(name: str, value: SupportsFloat) -> float:
     return number
 
 
-def single(name: str, value: Any, *kinds: type) -> Any:
-    """value, or a TopError unless it is of one of these kinds and none of its fields is an array."""
-    if not isinstance(value, kinds):
-        raise TopError(name, value, " | ".join(kind.__name__ for kind in kinds), code="wrong-kind")
-    if has_arrays(value):
-        raise TopError(name, value, "{kind} of numbers", "These are many: take one, or give all to slide_many().",
+def single(name: str, value: Any) -> None:
+    """Raises a TopError if the value is a record that stands for many."""
+    if isinstance(value, Compared) and has_arrays(value):
+        raise TopError(name, value, "{kind} of numbers", "These are many: give one; many motions: slide_many().",
                        code="many", kind=type(value).__name__)  # fmt: skip
-    return value
 
 
-def checked(function: Function) -> Function:
-    """Decorator: an argument of another kind than its annotation names raises a TopError before anything else does."""
+def checked(function: Function, many: bool = False) -> Function:
+    """Decorator: an argument of another kind than its annotation names, or a record that stands for many, raises a
+    TopError before anything else does. many: such records are allowed."""
     names, kinds = list(inspect.signature(function).parameters), dict[str, Any]()
 
     @functools.wraps(function)
@@ -155,13 +152,20 @@ def checked(function: Function) -> Function:
         if not kinds:  # at the first call: not while the modules are imported
             kinds.update(get_type_hints(function))
         for name, value in (*zip(names, given, strict=False), *named.items()):
-            _of_kind(name, value, kinds.get(name, Any), function.__qualname__.removesuffix(".__init__"))
+            of_kind(name, value, kinds.get(name, Any))
+            if not many:
+                single(name, value)
         return function(*given, **named)
 
     return cast(Function, call)
 
 
-def _of_kind(name: str, value: Any, kind: Any, function: str) -> None:
+def checked_many(function: Function) -> Function:
+    """checked() for a function whose arguments broadcast."""
+    return checked(function, many=True)
+
+
+def of_kind(name: str, value: Any, kind: Any) -> None:
     """Raises a TopError if the value is not what an annotation takes: one of the types that it names, or numbers."""
     parts = get_args(kind) if get_origin(kind) in (Union, UnionType) else (kind,)
     types = [get_origin(part) or part for part in parts]
@@ -172,8 +176,7 @@ def _of_kind(name: str, value: Any, kind: Any, function: str) -> None:
             numbers(name, value, finite=False)
     elif all(isinstance(each, type) for each in types) and bool not in types and not isinstance(value, tuple(types)):
         raise TopError(name, value, " | ".join(each.__name__ for each in types if each is not NoneType),
-                       "help(tippe_core.{function}) says what it takes.", code="other-kind",
-                       function=function)  # fmt: skip
+                       code="wrong-kind")  # fmt: skip
 
 
 class Compared:

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, overload
 
 import numpy as np
 
-from .errors import TopError, checked, finite, has_arrays, single
+from .errors import TopError, checked, checked_many, finite, has_arrays
 from .paper import equations as eq
 from .paper.constants import State, versines
 from .paper.top import Top
@@ -96,7 +96,7 @@ class Thresholds:
     rise: float
 
 
-@checked
+@checked_many
 def thresholds(top: Top) -> Thresholds:
     """The spins at which the stability of spinning upright and inverted changes.
 
@@ -156,7 +156,7 @@ def jellett_potential(theta: float, top: Top, C_J: float) -> float: ...
 def jellett_potential(theta: Scalars, top: Top, C_J: Array) -> Array: ...
 @overload
 def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
-@checked
+@checked_many
 def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
     """V_J = a(1 - c) + C_J^2/(2 I_eff).
 
@@ -282,8 +282,6 @@ def outcome(top: Top, state: State) -> Outcome:
     TopError
         for anything else, with the name, the value and the allowed range
     """
-    single("top", top, Top)
-    single("state", state, State)
     s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3
     C_J = eq.C_J(c, s, w2, w3, top)
     velocity_2 = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (top.a * s * w1) ** 2

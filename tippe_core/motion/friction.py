@@ -200,7 +200,6 @@ class Contensou(_Friction):
 
 
 Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb | Contensou
-LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 
 @compiled

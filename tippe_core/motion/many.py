@@ -5,19 +5,19 @@ import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from dataclasses import MISSING, dataclass, fields
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..classify import LAST, judged
-from ..errors import TopError, common_shape, has_arrays, numbers, single
+from ..errors import TopError, common_shape, has_arrays, numbers, of_kind, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
 from . import at, events, preparing
 from .dynamics import carried
-from .friction import LAWS
+from .friction import Friction
 from .kinds import STARTS, TOUCHES
 from .nudge import beside, checked_nudge
 from .periodic import run_all
@@ -170,7 +170,7 @@ def slide_many(
                preparing.checked_losses(rolling_resistance, air_drag), preparing.flies(landing),
                threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None)  # fmt: skip
     rims = np.array(None, object) if edge is None else _rims(edge)
-    parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS),
+    parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, Friction),
              numbers("t_end", t_end), rims]  # fmt: skip
     shape = common_shape("t_end", "shapes of top, state, friction, t_end and edge that broadcast", *parts)
     cells = list(zip(*(np.broadcast_to(part, shape).ravel().tolist() for part in parts), strict=True))
@@ -193,12 +193,15 @@ def _objects(items: Iterable[Any], shape: tuple[int, ...]) -> NDArray[np.object_
     return np.fromiter(items, object).reshape(shape)
 
 
-def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
-    """An array of instances of the kinds, with the code of the TopError in the place of each that is not possible."""
+def _cells(name: str, given: Any, kind: Any) -> NDArray[np.object_]:
+    """An array of instances of the kind, or kinds, with the code of the TopError in the place of each that is not
+    possible."""
+    kinds = get_args(kind) or (kind,)
     if isinstance(given, np.ndarray) or (isinstance(given, list | tuple) and not hasattr(given, "_fields")):
         cells = np.array(given, dtype=object)
         for cell in cells.flat:
-            single(name, cell, *kinds)
+            of_kind(name, cell, kind)
+            single(name, cell)
         return cells
     if isinstance(given, kinds) and not has_arrays(given):
         return _objects([given], ())

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, finite, numbers, single
+from ..errors import TopError, checked, finite, numbers
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
@@ -80,7 +80,7 @@ def strongest_friction(top: Top) -> float:
     float
         inf for a = 0
     """
-    a, I1, _ = single("top", top, Top).numbers
+    a, I1, _ = top.numbers
     if a == 0:
         return np.inf
     # with p = q/a and J = I1 p^2, q = 1 or, so that nothing overflows, a: the minimum of

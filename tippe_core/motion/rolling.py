@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, single
+from ..errors import TopError, checked
 from ..paper import differences
 from ..paper import equations as eq
 from ..paper.constants import EXACT, Constants, Exact, State, versines
@@ -99,10 +99,9 @@ class Rolling(Nutation):
 
     @checked
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
-        self.top = single("top", top, Top)
+        self.top = top
         with localcontext(EXACT):
             if isinstance(start, State):
-                single("state", start, State)
                 curve, (inner, outer), here = _from_state(top, constants, start)
             else:
                 curve, (inner, outer) = _from_constants(top, constants, start, well)
@@ -306,13 +305,13 @@ def contact_and_force(
 
 
 def _from_constants(top: Top, constants: Constants | None, start: str, well: int) -> tuple[ExactCurve, Well]:
-    if not isinstance(start, str) or start not in ("inner", "outer"):
+    if start not in ("inner", "outer"):
         raise TopError("start", start, '"inner" | "outer" | State', code="wrong-kind")
-    if not isinstance(constants, Constants):
+    if constants is None:
         raise TopError("constants", constants, "Constants", code="wrong-kind")
     curve = ExactCurve(top, Exact.of(constants, top))
     found = wells(curve)
-    if isinstance(well, bool) or not isinstance(well, (int, np.integer)) or well not in range(len(found)):
+    if well not in range(len(found)):
         raise TopError("well", well, f"0 <= well <= {len(found) - 1}")
     return curve, found[well]
 

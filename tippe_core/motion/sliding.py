@@ -10,13 +10,13 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, checked, finite, single
+from ..errors import TopError, checked, finite
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array
 from . import at, events, preparing
 from .dynamics import carried
-from .friction import LAWS, Friction
+from .friction import Friction
 from .kinds import NONE, STARTS, TOUCHES
 from .poses import REGIMES, sample_at
 from .records import LOG, OPEN, SAMPLE, SLIP
@@ -144,8 +144,7 @@ class Sliding:
         landing: str = "plastic", edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
         profile: ArrayLike | None = None,
     ) -> None:  # fmt: skip
-        self.top, self.friction = single("top", top, Top), single("friction", friction, *LAWS)
-        single("state", state, State)
+        self.top, self.friction = top, friction
         preparing.check_balance(top, friction)
         losses = preparing.checked_losses(rolling_resistance, air_drag)
         self._body = None if profile is None else preparing.checked_profile(profile)

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, single
+from ..errors import TopError, checked
 from ..paper import equations as eq
 from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.search import zero
@@ -102,7 +102,7 @@ class Gliding(Nutation):
 
     @checked
     def __init__(self, top: Top, state: State) -> None:
-        self.top, self.start = single("top", top, Top), single("state", state, State)
+        self.top, self.start = top, state
         self._inward = state.theta_dot < 0
         v, m = (float(x) for x in versines(state.theta))
         with localcontext(EXACT):

@@ -152,8 +152,6 @@ class Exact:
 
     @classmethod
     def of(cls, constants: Constants, top: Top) -> Self:
-        if any(np.ndim(x) for x in (constants.K_J, constants.K_R, constants.E)):
-            raise TopError("constants", constants, "Constants(float, float, float)", code="wrong-kind")
         with localcontext(EXACT):
             K_J, K_R, E = (Decimal(float(x)) for x in (constants.K_J, constants.K_R, constants.E))
             return cls(nonzero(K_J), nonzero(K_R), eq.two_E_prime(E, K_J, K_R, exact_top(top)))
@@ -161,7 +159,7 @@ class Exact:
     @classmethod
     def of_state(cls, state: State, top: Top) -> Self:
         """From a State, by (30), (31) and (33)."""
-        single("state", state, State)
+        single("state", state)
         v, m = versines(state.theta)
         with localcontext(EXACT):
             t = exact_top(top)

@@ -6,7 +6,7 @@ from typing import overload
 import numpy as np
 
 from ..compiled import compiled
-from ..errors import checked
+from ..errors import checked_many
 from ..types import Array, Indices, Scalars
 from . import equations as eq
 from .constants import EXACT, Constants, Exact, exact_versine, versines
@@ -21,7 +21,7 @@ _CANCELLED = 1e-5  # relative to the terms of (36): a smaller sum has lost more 
 def f1_squared(theta: float, top: Top) -> float: ...
 @overload
 def f1_squared(theta: Array, top: Top) -> Array: ...
-@checked
+@checked_many
 def f1_squared(theta: Scalars, top: Top) -> Scalars:
     """f1^2 = I1 + 1 + a^2 - 2 a cos(theta), (35).
 
@@ -44,7 +44,7 @@ def f1_squared(theta: Scalars, top: Top) -> Scalars:
 def f2_squared(theta: float, top: Top) -> float: ...
 @overload
 def f2_squared(theta: Array, top: Top) -> Array: ...
-@checked
+@checked_many
 def f2_squared(theta: Scalars, top: Top) -> Scalars:
     """f2^2 = I1 + (I1/I3) sin(theta)^2 + (cos(theta) - a)^2, (34).
 
@@ -67,7 +67,7 @@ def f2_squared(theta: Scalars, top: Top) -> Scalars:
 def f3_squared(theta: float, top: Top) -> float: ...
 @overload
 def f3_squared(theta: Array, top: Top) -> Array: ...
-@checked
+@checked_many
 def f3_squared(theta: Scalars, top: Top) -> Scalars:
     """f3^2 = I3 + sin(theta)^2 + (I3/I1)(cos(theta) - a)^2, (32).
 
@@ -90,7 +90,7 @@ def f3_squared(theta: Scalars, top: Top) -> Scalars:
 def omega3(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def omega3(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
+@checked_many
 def omega3(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """omega_3 = K_R/f3, (31).
 
@@ -120,7 +120,7 @@ def omega3(theta: Scalars, top: Top, constants: Constants) -> Scalars:
 def omega2(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def omega2(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
+@checked_many
 def omega2(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """omega_2' = [K_J - (I3/I1)(c - a) K_R/f3]/s, (30).
 
@@ -165,7 +165,7 @@ def omega2_on(top: TopNumbers, v: Array, m: Array, K_R: Array, upright: Array, i
 def f(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def f(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
+@checked_many
 def f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """theta_dot^2 = f(theta), (36); negative where no motion is possible.
 

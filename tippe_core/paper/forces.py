@@ -4,7 +4,7 @@ from typing import overload
 
 import numpy as np
 
-from ..errors import checked
+from ..errors import checked_many
 from ..types import Array, Scalars, Vector
 from . import equations as eq
 from .constants import Constants, versines
@@ -24,7 +24,7 @@ def forces_on_curve(theta: Scalars, top: Top, constants: Constants, w1_squared: 
 def normal_force(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def normal_force(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
+@checked_many
 def normal_force(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """F_z = 1 + a (s f'/2 + c f), (37).
 
@@ -54,7 +54,7 @@ def normal_force(theta: Scalars, top: Top, constants: Constants) -> Scalars:
 def friction_force(theta: float, top: Top, constants: Constants) -> tuple[Scalars, Scalars]: ...
 @overload
 def friction_force(theta: Array, top: Top, constants: Constants) -> tuple[Array, Array]: ...
-@checked
+@checked_many
 def friction_force(theta: Scalars, top: Top, constants: Constants) -> tuple[Scalars, Scalars]:
     """(F_x, F_y) for theta_dot > 0, (38) and (39); F_x changes sign with theta_dot.
 

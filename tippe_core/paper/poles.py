@@ -11,7 +11,7 @@ from typing import NamedTuple, overload
 
 import numpy as np
 
-from ..errors import checked, finite, numbers
+from ..errors import checked_many, finite, numbers
 from ..types import Array, Bools, Number, Scalars
 from . import equations as eq
 from .constants import EXACT, exact_top
@@ -77,7 +77,7 @@ def two_signs(x: Number, p: Number, q: Number, f3_P: Number, f3: Number) -> Numb
 def pole_constants(top: Top, K_R: float) -> tuple[float, float]: ...
 @overload
 def pole_constants(top: Top, K_R: Array) -> tuple[Array, Array]: ...
-@checked
+@checked_many
 def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
     """(K_J at P, K_J at the inverted pole): the values for which the bracket of (36) vanishes at theta = 0 and at pi.
 

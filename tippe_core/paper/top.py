@@ -68,7 +68,7 @@ class Top(Compared):
     @property
     def numbers(self) -> TopNumbers:
         """a, I1, I3 as floats, for compiled functions. Raises TopError if this is many tops."""
-        single("top", self, Top)
+        single("top", self)
         return TopNumbers(self.a, self.I1, self.I3)
 
 
