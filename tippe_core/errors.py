@@ -167,6 +167,7 @@ def checked_many(function: Function) -> Function:
 
 def of_kind(name: str, value: Any, kind: Any) -> None:
     """Raises a TopError if the value is not what an annotation takes: one of the types that it names, or numbers."""
+    kind = getattr(kind, "__bound__", None) or kind
     parts = get_args(kind) if get_origin(kind) in (Union, UnionType) else (kind,)
     types = [get_origin(part) or part for part in parts]
     if Any in types or (value is None and NoneType in types):

@@ -22,7 +22,7 @@ At the poles C_J = I3 (1 - a) omega (upright) and -I3 (1 + a) Omega (inverted), 
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,7 +30,7 @@ from .errors import TopError, checked, checked_many, finite, has_arrays
 from .paper import equations as eq
 from .paper.constants import State, versines
 from .paper.top import Top
-from .types import Array, Bools, Scalars
+from .types import Array, Bools, Like, Number, Scalars
 
 
 class SteadyStates(NamedTuple):
@@ -150,14 +150,8 @@ def _change(height: float, inertia: float) -> Change:
     return Change("always" if height + inertia > 0 else "never", np.nan)
 
 
-@overload
-def jellett_potential(theta: float, top: Top, C_J: float) -> float: ...
-@overload
-def jellett_potential(theta: Scalars, top: Top, C_J: Array) -> Array: ...
-@overload
-def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
 @checked_many
-def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
+def jellett_potential(theta: Like, top: Top, C_J: Scalars) -> Like:
     """V_J = a(1 - c) + C_J^2/(2 I_eff).
 
     Parameters
@@ -177,7 +171,8 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
     v, m = versines(theta)
     I_eff = eq.I_eff(1 - v, v * m, top)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return top.a * v + np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
+        kinetic: Number = np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
+    return top.a * v + kinetic
 
 
 @checked

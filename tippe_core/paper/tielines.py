@@ -2,13 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import TopError, checked, finite
-from ..types import Array, Scalars
+from ..types import Array, Like, Number
 from . import equations as eq
 from .constants import versines
 from .limits import least_U_of, limits_of
@@ -60,12 +59,8 @@ class Tielines:
     E_steady: Array
 
 
-@overload
-def limit_energy(top: Top, K_J: float, K_R: float, mu_s: float | None = None) -> float: ...
-@overload
-def limit_energy(top: Top, K_J: Array, K_R: float, mu_s: float | None = None) -> Array: ...
 @checked
-def limit_energy(top: Top, K_J: Scalars, K_R: float, mu_s: float | None = None) -> Scalars:
+def limit_energy(top: Top, K_J: Like, K_R: float, mu_s: float | None = None) -> Like:
     """The largest E (6) with F_z >= 0, and F_h <= mu_s F_z where mu_s is given, on the whole trajectory.
 
     It is for the well around the steady precession of least energy.
@@ -92,8 +87,8 @@ def limit_energy(top: Top, K_J: Scalars, K_R: float, mu_s: float | None = None) 
     TopError
         for anything else, with the name, the value and the allowed range
     """
-    E = tielines(top, K_J, K_R, mu_s).E
-    return E if np.ndim(K_J) else float(E)
+    E: Number = tielines(top, K_J, K_R, mu_s).E
+    return E if np.ndim(K_J) else E.item()
 
 
 @checked
