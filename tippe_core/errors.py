@@ -135,6 +135,14 @@ def finite(name: str, value: SupportsFloat) -> float:
     return number
 
 
+def positive(name: str, value: SupportsFloat, zero: bool = False, unit: str = "") -> float:
+    """value as a float, or a TopError unless it is above 0, or 0 if that is allowed. unit: as in " (SI)"."""
+    number = finite(name, value)
+    if number < 0 or (number == 0 and not zero):
+        raise TopError(name, number, f"{name} {'>=' if zero else '>'} 0{unit}")
+    return number
+
+
 def single(name: str, value: Any) -> None:
     """Raises a TopError if the value is a record that stands for many."""
     if isinstance(value, Compared) and has_arrays(value):
@@ -190,6 +198,13 @@ class Compared:
         return hash(tuple(x.tobytes() if isinstance(x, np.ndarray) else x for x in vars(self).values()))
 
 
+def read_only(*values: object) -> None:
+    """Makes those of the values that are arrays read-only."""
+    for value in values:
+        if isinstance(value, np.ndarray):
+            value.flags.writeable = False
+
+
 def has_arrays(record: Any) -> bool:
     """Whether a field of a record is an array, so that it stands for many."""
     return any(isinstance(field, np.ndarray | list | tuple) for field in vars(record).values())
@@ -201,7 +216,7 @@ def set_arrays(name: str, record: Any) -> None:
     for field, value in vars(record).items():
         if value is not None:
             array = numbers(field, value, finite=False)
-            array.flags.writeable = False
+            read_only(array)
             object.__setattr__(record, field, array if array.ndim else float(array))
     common_shape(
         name, "fields that broadcast together", *(value for value in vars(record).values() if value is not None)

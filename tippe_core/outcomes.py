@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .errors import TopError, checked, checked_many, finite, has_arrays
+from .errors import TopError, checked, checked_many, finite, has_arrays, read_only
 from .paper import equations as eq
 from .paper.constants import State, versines
 from .paper.top import Top
@@ -212,8 +212,7 @@ def steady_states(top: Top, C_J: float) -> SteadyStates:
     falls_before = np.array([any(between), *(between > 0)])
     rises_after = np.array([*(between < 0), any(between)])
     found = SteadyStates(np.arccos(places), falls_before & rises_after)
-    for part in found:
-        part.flags.writeable = False
+    read_only(*found)
     return found
 
 

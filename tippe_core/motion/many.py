@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..classify import LAST, judged
-from ..errors import TopError, common_shape, has_arrays, numbers, of_kind, single
+from ..errors import TopError, common_shape, has_arrays, numbers, of_kind, positive, read_only, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
@@ -275,8 +275,7 @@ def _compute(row: Any, cell: tuple[Any, ...], how: _How) -> None:
         row["reason"] = codes[0]
         return
     top, state, friction, t_end, edge = cell
-    if t_end < 0:
-        raise TopError("t_end", t_end, "t_end >= 0")
+    positive("t_end", t_end, zero=True)
     preparing.check_balance(top, friction)
     P = preparing.problem(top, friction, preparing.checked_edge(edge), how.losses, how.rtol)
     _run_to_end(row, state, P, t_end, how)
@@ -327,6 +326,5 @@ def _many(found: Any) -> Many:
     """Many, from the RESULTs."""
     parts = {name: np.array(found[name]) for name in (*NUMBERS, "hops", "end", "reason")}
     states = States(*(np.array(part) for part in np.moveaxis(found["state"], -1, 0)))
-    for part in (*parts.values(), flew := np.array(parts["hops"] > 0), *states):
-        part.flags.writeable = False
+    read_only(*parts.values(), flew := np.array(parts["hops"] > 0), *states)
     return Many(theta_end=states.theta, state_end=states, flew=flew, **parts)

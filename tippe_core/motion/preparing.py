@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, finite, numbers
+from ..errors import TopError, checked, finite, numbers, positive
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
@@ -30,11 +30,7 @@ def checked_rtol(rtol: float) -> float:
 
 def checked_losses(rolling_resistance: float, air_drag: float) -> tuple[float, float]:
     """The coefficients of the losses as floats, or a TopError if one is negative."""
-    given = {"rolling_resistance": rolling_resistance, "air_drag": air_drag}
-    for name, loss in given.items():
-        if finite(name, loss) < 0:
-            raise TopError(name, loss, f"{name} >= 0")
-    return float(rolling_resistance), float(air_drag)
+    return positive("rolling_resistance", rolling_resistance, zero=True), positive("air_drag", air_drag, zero=True)
 
 
 def flies(landing: str) -> bool:

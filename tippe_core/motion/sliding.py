@@ -190,9 +190,7 @@ class Sliding:
         TopError
             for times that decrease, and where the equations cannot be followed
         """
-        t = checked_times(times)
-        if np.any(np.diff(t) < 0):
-            raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
+        t = checked_times(times, forward=True)
         if t[0] < self._last:
             raise TopError("times", times, "{first:.10g} to {last:.10g}", code="outside-times", first=self._last,
                            last=np.inf)  # fmt: skip

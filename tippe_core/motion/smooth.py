@@ -62,9 +62,7 @@ def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
     TopError
         for bad input, and very close to motions that take infinitely long to leave an unstable steady precession
     """
-    t = checked_times(times)
-    if np.any(np.diff(t) < 0):
-        raise TopError("times", times, "times[i] <= times[i + 1]", "None is less than the one before.", code="falling")
+    t = checked_times(times, forward=True)
     gliding = Gliding(top, state)
     lifts = gliding.lift_off
     moved = gliding(t[t - t[0] <= lifts])

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import Compared, TopError, common_shape, finite, has_arrays, numbers, set_arrays, single
+from ..errors import Compared, TopError, common_shape, finite, has_arrays, numbers, read_only, set_arrays, single
 from ..types import Array, Scalars
 from . import equations as eq
 from .equations import AnyTop
@@ -58,7 +58,7 @@ class Constants(Compared):
                 value = finite(field.name, value) + 0.0  # -0 becomes 0
             else:
                 value = numbers(field.name, value) + 0.0
-                value.flags.writeable = False
+                read_only(value)
             object.__setattr__(self, field.name, value)
         common_shape("constants", "shapes of K_J, K_R and E that broadcast together", self.K_J, self.K_R, self.E)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, checked, finite
+from ..errors import TopError, checked, finite, positive, read_only
 from ..types import Array, Like, Number
 from . import equations as eq
 from .constants import versines
@@ -155,8 +155,8 @@ def limited(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]
         raise TopError("K_J", float(K_J[~np.isfinite(K_J)].flat[0]), "finite numbers", code="not-finite")
     K_J, K_R = K_J.ravel(), finite("K_R", K_R)
     for mu in limits:
-        if mu is not None and finite("mu_s", mu) < 0:
-            raise TopError("mu_s", float(mu), "mu_s >= 0")
+        if mu is not None:
+            positive("mu_s", mu, zero=True)
     offsets = np.stack(pole_offsets(top, K_J, K_R), axis=1)
     steady = steady_of_least_energy(top, K_J, K_R, offsets)
     pairs = np.array([(1.0, 0.0) if mu is None else (mu, 1.0) for mu in limits])
@@ -169,8 +169,7 @@ def limited(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]
         by = np.where(np.isnan(e), "no motion", np.where(np.isinf(e), "nothing", by))
         columns = K_J, eq.E_of(e, K_J, K_R, top), inner, outer, verge, by, theta_p, E_p
         parts = [column.reshape(shape) for column in columns]
-        for part in parts:
-            part.flags.writeable = False
+        read_only(*parts)
         lines.append(Tielines(*parts))
     return lines
 
