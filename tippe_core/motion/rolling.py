@@ -21,7 +21,7 @@ from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
 from .nutation import Nodes, Nutation
-from .phase import Ends, Pose, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
+from .phase import Ends, Pose, nearer_pole, pole_factor, theta_dot, v_and_m
 from .track import Path, Track, path
 from .trajectory import Trajectory, checked_times
 
@@ -152,8 +152,8 @@ class Rolling(Nutation):
                         "So near to it, or where f1 or f3 nearly vanishes in the well, the nutation takes almost for "
                         "ever; change E a little.", code="energy-not-resolved")  # fmt: skip
 
-    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return rolling_sigma_rates(v, m, dt_dkappa, self._curve, self.ends)
+    def _slopes(self, v: Array, m: Array) -> tuple[Array, Array]:
+        return rolling_slopes(v, m, self._curve, self.ends)
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
@@ -249,20 +249,18 @@ def rolling_omega(
 
 
 @compiled
-def rolling_sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends) -> Array:
-    """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
-    rates = np.empty((2, len(v)))
+def rolling_slopes(v: Array, m: Array, curve: Floats, ends: Ends) -> tuple[Array, Array]:
+    """As half_sigma_rate() takes them, (n,) each."""
+    minus, plus = np.empty(len(v)), np.empty(len(v))
     for i in range(len(v)):
         side, x, d = nearer_pole(v[i], m[i], ends)
         c, s2 = 1 - v[i], v[i] * m[i]
         w3 = eq.omega3(c, s2, curve.K_R, curve.top)
         C = pole_slope(x, np.sqrt(eq.f3_2(c, s2, curve.top)), side * w3, seen_from(side, curve.top))
         B = d + x * C
-        slope_v = C if v[i] <= m[i] else (B - ends.upright) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
-        slope_m = C if m[i] < v[i] else (B - ends.inverted) / m[i]
-        rates[0, i] = half_sigma_rate(v[i], ends.v1, ends.v2, ends.upright, dt_dkappa[i], slope_v - w3)
-        rates[1, i] = half_sigma_rate(m[i], ends.m1, ends.m2, ends.inverted, dt_dkappa[i], slope_m + w3)
-    return rates
+        minus[i] = (C if v[i] <= m[i] else (B - ends.upright) / v[i]) - w3  # (w2 s - d)/(1 - c) - w3
+        plus[i] = (C if m[i] < v[i] else (B - ends.inverted) / m[i]) + w3
+    return minus, plus
 
 
 @compiled

@@ -32,7 +32,7 @@ from ..paper.top import Top, TopNumbers
 from ..paper.wells import exact_zero
 from ..types import Array
 from .nutation import Nodes, Nutation
-from .phase import Ends, Pose, half_sigma_rate, nearer_pole, theta_dot, v_and_m
+from .phase import Ends, Pose, nearer_pole, theta_dot, v_and_m
 from .trajectory import Trajectory, checked_times
 
 
@@ -128,8 +128,9 @@ class Gliding(Nutation):
                         "So near to it the nutation takes almost for ever; change the start a little.",
                         code="start-not-resolved")  # fmt: skip
 
-    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return gliding_sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.ends)
+    def _slopes(self, v: Array, m: Array) -> tuple[float, float]:
+        slope = self._B_slope - self.start.omega3
+        return slope, -slope
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
@@ -195,16 +196,6 @@ def gliding_omega(
         w[i, 1] = B / s if s > 0 else 0.0
         w[i, 2] = w3
     return w
-
-
-@compiled
-def gliding_sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends) -> Array:
-    """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
-    rates = np.empty((2, len(v)))
-    for i in range(len(v)):
-        rates[0, i] = half_sigma_rate(v[i], ends.v1, ends.v2, ends.upright, dt_dkappa[i], B_slope - w3)
-        rates[1, i] = half_sigma_rate(m[i], ends.m1, ends.m2, ends.inverted, dt_dkappa[i], w3 - B_slope)
-    return rates
 
 
 @compiled
