@@ -22,7 +22,7 @@ from .kinds import STARTS, TOUCHES
 from .nudge import beside, checked_nudge
 from .periodic import run_all
 from .poses import sample_at
-from .records import LOG, OPEN, SAMPLE, Record, new
+from .records import LOG, OPEN, SAMPLE, Record, modes_of, new
 from .run import ENDED, MORE
 from .summary import begin, energy_at
 
@@ -293,8 +293,8 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
     begin(W, P, log, (1 - LAST) * t_end)
     if goes_on and event[0] == TOUCHES:
         events.lands(W, log, event)
-    if goes_on and not carried(*W.modes) and not how.flies and event[0] == STARTS:
-        events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
+    if goes_on and not carried(modes_of(W)) and not how.flies and event[0] == STARTS:
+        events.logged(W, log, events.LIFTS_OFF, (OPEN, OPEN))
     elif goes_on:
         status = MORE
         while status == MORE and W.steps < CELL_STEPS and not (how.stop and how.stop.is_set()):
@@ -308,14 +308,15 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
         if last == events.STANDS_UPRIGHT
         else {1 << i: support for i, support in enumerate(events.SUPPORTS)}.get(T.seen, "")
     )
-    sample_at(W, P, OPEN, OPEN, here)
-    flight = [np.nan] * 2 if carried(*W.modes) else [here.com[2], here.velocity[2]]
+    sample_at(W, P, (OPEN, OPEN), here)
+    flight = [np.nan] * 2 if carried(modes_of(W)) else [here.com[2], here.velocity[2]]
     row["state"] = [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2], *flight]
     row["time_90"], row["time_stem"] = (
         events.first(entries, events.PASSES_90),
         events.first(entries, events.FIRST_TOUCH),
     )
-    row["F_z_least"], row["hops"] = T.F_z_least if np.isfinite(T.F_z_least) else np.nan, T.hops
+    row["F_z_least"] = T.F_z_least if np.isfinite(T.F_z_least) else np.nan
+    row["hops"] = np.count_nonzero(entries["name"] == events.LIFTS_OFF)
     row["heat"], row["energy_error"] = W.y[at.HEAT], energy_at(W, P) + W.y[at.HEAT] - E
     if not (P.law.pivots or P.drag > 0 or P.delta > 0):
         row["C_J_drift"] = T.drift / (abs(T.C_J) or 1.0)

@@ -19,7 +19,7 @@ from .dynamics import carried
 from .friction import Friction
 from .kinds import NONE, STARTS, TOUCHES
 from .poses import REGIMES, sample_at
-from .records import LOG, OPEN, SAMPLE, SLIP
+from .records import BALL, LOG, OPEN, SAMPLE, SLIP, STEM, modes_of
 from .rolling_part import RollingPart
 from .run import ENDED, HANDS_OVER, MORE, run
 from .summary import begin
@@ -160,13 +160,13 @@ class Sliding:
         self._sinks: tuple[int, float] | None = None  # the row, and the time, at which another part touches
         (kind, self._stands_on), goes_on = preparing.start(W, P, state)
         begin(W, P, self._log, np.inf)
-        self._first = carried(*W.modes) if goes_on else 1 + self._stands_on
+        self._first = carried(modes_of(W)) if goes_on else 1 + self._stands_on
         if not goes_on:
-            events.logged(W, self._log, events.PAINLEVE, OPEN, OPEN)
+            events.logged(W, self._log, events.PAINLEVE, (OPEN, OPEN))
         elif kind == TOUCHES:
             events.lands(W, self._log, (kind, self._stands_on))
         elif self._first == 0 and kind == STARTS:
-            events.logged(W, self._log, events.LIFTS_OFF, OPEN, OPEN)
+            events.logged(W, self._log, events.LIFTS_OFF, (OPEN, OPEN))
         self.ended = not (goes_on and (self._first or self._flies or kind == NONE))
 
     def until(self, times: ArrayLike, progress: Progress = None) -> Trajectory:
@@ -236,7 +236,7 @@ class Sliding:
             if status == HANDS_OVER and self._rolls(times, rows):
                 return
             if status == MORE and W.steps >= MOST_STEPS:
-                events.logged(W, log, events.TOO_MANY_STEPS, *W.modes)
+                events.logged(W, log, events.TOO_MANY_STEPS, modes_of(W))
                 self.ended = True
                 return
 
@@ -263,7 +263,7 @@ class Sliding:
             modes[self._stands_on] = SLIP
         W.contacts.F[:] = 0.0
         W.contacts.F[self._stands_on, 2] = float(event == events.STANDS_UPRIGHT)
-        sample_at(W, self._P, modes[0], modes[1], rows[0])
+        sample_at(W, self._P, (modes[BALL], modes[STEM]), rows[0])
         rows["slip"] = 0.0
         return rows
 
