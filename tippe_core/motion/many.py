@@ -169,9 +169,8 @@ def slide_many(
     how = _How(preparing.checked_rtol(rtol), None if nudge is None else checked_nudge(nudge),
                preparing.checked_losses(rolling_resistance, air_drag), preparing.flies(landing),
                threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None)  # fmt: skip
-    rims = np.array(None, object) if edge is None else _rims(edge)
     parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, Friction),
-             numbers("t_end", t_end), rims]  # fmt: skip
+             numbers("t_end", t_end), _rims(edge)]  # fmt: skip
     shape = common_shape("t_end", "shapes of top, state, friction, t_end and edge that broadcast", *parts)
     cells = list(zip(*(np.broadcast_to(part, shape).ravel().tolist() for part in parts), strict=True))
     if executor is not None:
@@ -181,8 +180,10 @@ def slide_many(
         return _many(_all(cells, how, progress, threads).reshape(shape))
 
 
-def _rims(edge: ArrayLike) -> NDArray[np.object_]:
-    """An array of (radius, height, rounding)."""
+def _rims(edge: ArrayLike | None) -> NDArray[np.object_]:
+    """An array of (radius, height, rounding), or of None."""
+    if edge is None:
+        return np.array(None, object)
     rows = numbers("edge", edge)
     if rows.ndim == 0 or rows.shape[-1] not in (2, 3):
         raise TopError("edge", edge, "(radius, height, rounding)", code="wrong-kind")

@@ -14,7 +14,7 @@ from ..compiled import compiled
 from ..errors import TopError, checked
 from ..paper import differences
 from ..paper import equations as eq
-from ..paper.constants import EXACT, Constants, Exact, State, versines
+from ..paper.constants import EXACT, Constants, Exact, State, exact_place
 from ..paper.differences import Place
 from ..paper.poles import Floats, bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
@@ -316,8 +316,7 @@ def _from_constants(top: Top, constants: Constants | None, start: str, well: int
 
 def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[ExactCurve, Well, Decimal]:
     exact = Exact.of_state(state, top)
-    v, m = (float(x) for x in versines(state.theta))
-    here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
+    _, here, _ = exact_place(state.theta)
     spins = state.theta_dot, state.omega2, state.omega3
     rolling = eq.rolling_velocity(float(here), np.sin(state.theta), *spins, top)
     for name, value in zip(("vx", "vy"), rolling, strict=True):

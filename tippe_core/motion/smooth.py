@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from ..compiled import compiled
 from ..errors import TopError, checked
 from ..paper import equations as eq
-from ..paper.constants import EXACT, State, exact_top, versines
+from ..paper.constants import EXACT, State, exact_place, exact_top
 from ..paper.search import zero
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import exact_zero
@@ -102,11 +102,9 @@ class Gliding(Nutation):
     def __init__(self, top: Top, state: State) -> None:
         self.top, self.start = top, state
         self._inward = state.theta_dot < 0
-        v, m = (float(x) for x in versines(state.theta))
         with localcontext(EXACT):
             t, w1, w2, w3 = exact_top(top), *(Decimal(w) for w in (state.theta_dot, state.omega2, state.omega3))
-            v = Decimal(v) if v <= m else 2 - Decimal(m)
-            here, s2 = 1 - v, v * (2 - v)
+            v, here, s2 = exact_place(state.theta)
             L3 = t.I3 * w3
             L_z, e = eq.L_z(here, s2.sqrt(), w2, w3, t), eq.two_E_smooth(s2, w1, w2, v, t)
             inner, outer = turning_cosines(t, e, L_z, L3, here, still=state.theta_dot == 0)

@@ -160,11 +160,8 @@ class Exact:
     def of_state(cls, state: State, top: Top) -> Self:
         """From a State, by (30), (31) and (33)."""
         single("state", state)
-        v, m = versines(state.theta)
         with localcontext(EXACT):
-            t = exact_top(top)
-            v = Decimal(float(v)) if v <= m else 2 - Decimal(float(m))
-            c, s2 = 1 - v, v * (2 - v)
+            t, (v, c, s2) = exact_top(top), exact_place(state.theta)
             w1, w2, w3 = Decimal(state.theta_dot), Decimal(state.omega2), Decimal(state.omega3)
             K_J, K_R = eq.K_J(c, s2.sqrt(), w2, w3, t), eq.K_R(c, s2, w3, t)
             e = eq.two_E_prime_of_motion(w1 * w1, eq.U(v, c, s2, w2 * w2, t), c, t)
@@ -182,6 +179,13 @@ def versines(theta: ArrayLike) -> tuple[Array, Array]:
     theta = np.asarray(theta, dtype=float)
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
     return v, np.where(theta == np.pi, 0.0, m)
+
+
+def exact_place(theta: float) -> tuple[Decimal, Decimal, Decimal]:
+    """1 - c, c and s^2 in the context EXACT, from versines()."""
+    v, m = (Decimal(float(x)) for x in versines(theta))
+    v = v if v <= m else 2 - m
+    return v, 1 - v, v * (2 - v)
 
 
 def exact_versine(theta: float) -> Decimal:
