@@ -210,12 +210,13 @@ def has_arrays(record: Any) -> bool:
     return any(isinstance(field, np.ndarray | list | tuple) for field in vars(record).values())
 
 
-def set_arrays(name: str, record: Any) -> None:
-    """Turns the fields of a frozen record that stands for many into read-only arrays, or raises a TopError if they do
-    not broadcast together. Which of the many are possible is not checked."""
+def set_arrays(name: str, record: Any, finite: bool = False) -> None:
+    """Turns the fields of a frozen record that may stand for many into floats and read-only arrays, or raises a
+    TopError if they do not broadcast together. Which of the many are possible is not checked; finite: but all of them
+    must be finite."""
     for field, value in vars(record).items():
-        if value is not None:
-            array = numbers(field, value, finite=False)
+        if value is not None or finite:
+            array = np.asarray(numbers(field, value, finite) + 0.0)  # -0 becomes 0
             read_only(array)
             object.__setattr__(record, field, array if array.ndim else float(array))
     common_shape(

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import Compared, TopError, common_shape, finite, has_arrays, numbers, read_only, set_arrays, single
+from ..errors import Compared, TopError, finite, has_arrays, set_arrays, single
 from ..types import Array, Scalars
 from . import equations as eq
 from .equations import AnyTop
@@ -52,15 +52,7 @@ class Constants(Compared):
     E: Scalars
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if np.ndim(value) == 0 and not isinstance(value, (list, tuple)):
-                value = finite(field.name, value) + 0.0  # -0 becomes 0
-            else:
-                value = numbers(field.name, value) + 0.0
-                read_only(value)
-            object.__setattr__(self, field.name, value)
-        common_shape("constants", "shapes of K_J, K_R and E that broadcast together", self.K_J, self.K_R, self.E)
+        set_arrays("constants", self, finite=True)
 
     def two_E_prime(self, top: Top) -> Scalars:
         """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33), in MgR. Correctly rounded for scalars."""

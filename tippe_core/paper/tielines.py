@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, checked, finite, positive, read_only
+from ..errors import checked, finite, numbers, positive, read_only
 from ..types import Array, Like, Number
 from . import equations as eq
 from .constants import versines
@@ -150,10 +150,7 @@ def lift_off_and_slip_tielines(top: Top, K_J: ArrayLike, K_R: float, mu_s: float
 
 def limited(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]) -> list[Tielines]:
     """One Tielines for each of the limits: None for F_z >= 0 alone, or a value of mu_s."""
-    shape, K_J = np.shape(K_J), np.array(K_J, dtype=float)
-    if not np.all(np.isfinite(K_J)):
-        raise TopError("K_J", float(K_J[~np.isfinite(K_J)].flat[0]), "finite numbers", code="not-finite")
-    K_J, K_R = K_J.ravel(), finite("K_R", K_R)
+    shape, K_J, K_R = np.shape(K_J), numbers("K_J", K_J).ravel(), finite("K_R", K_R)
     for mu in limits:
         if mu is not None:
             positive("mu_s", mu, zero=True)
@@ -168,7 +165,7 @@ def limited(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]
         by = np.where((F_z > 1e-9) & (mu is not None), "slip", "lift-off")
         by = np.where(np.isnan(e), "no motion", np.where(np.isinf(e), "nothing", by))
         columns = K_J, eq.E_of(e, K_J, K_R, top), inner, outer, verge, by, theta_p, E_p
-        parts = [column.reshape(shape) for column in columns]
+        parts: list[Number] = [column.reshape(shape) for column in columns]
         read_only(*parts)
         lines.append(Tielines(*parts))
     return lines
