@@ -87,6 +87,6 @@ def _compile_in_a_process() -> None:
         if hasattr(os, "setpriority"):
             os.setpriority(os.PRIO_PROCESS, process.pid, NICE)
         assert process.stderr
-        said = process.stderr.read()  # not communicate(), which closes the input
+        errors = process.stderr.read()  # not communicate(), which closes the input
     if process.returncode:
-        log.warning("compiling in a process of its own failed: %s", said.strip().rpartition("\n")[2])
+        log.warning("compiling in a process of its own failed: %s", errors.strip().rpartition("\n")[2])

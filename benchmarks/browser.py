@@ -63,8 +63,8 @@ WATCH = """
   const models = [...Bokeh.documents[0]._all_models.values()]
   const dial = models.find((m) => m.data?.parts && JSON.parse(m.data.state).values.K_J == 7)?.data
   const slider = models.find((m) => m.type.includes("Slider") && m.value == 7)
-  const hand = ours ? dial.properties.asked : slider.properties.value
-  const value = () => ours ? dial.asked[2] : slider.value
+  const hand = ours ? dial.properties.request : slider.properties.value
+  const value = () => ours ? dial.request[2] : slider.value
   hand.change.connect(() => bench.inputs.push([window.event?.timeStamp ?? performance.now(), value()]))
   const painted = (part, value) => {
     const channel = new MessageChannel()

@@ -34,7 +34,7 @@ class Person(Page):
         """Looks into one room after the other, and waits for none."""
         [head] = self.visitor.find("Head")
         for number, room in zip(count(1), cycle(ROOMS), strict=False):
-            await self.visitor.set(head, "asked", [number, "room", room])
+            await self.visitor.set(head, "request", [number, "room", room])
             await asyncio.sleep(0)
 
     async def teacher(self):

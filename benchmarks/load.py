@@ -98,10 +98,10 @@ class Active(Page):
             self.times.append(time.monotonic() - self.moved)
         self.moved, self.moves = time.monotonic(), self.moves + 1
         if self.groups:  # of the level "Research"
-            await self.visitor.set(self.visitor.group("K_J"), "asked", [self.moves, "K_J", value, False])
+            await self.visitor.set(self.visitor.group("K_J"), "request", [self.moves, "K_J", value, False])
         elif self.lab:
             spin = 20 + 0.1 * (self.moves % 90)  # always another one: what does not change has no answer
-            await self.visitor.set(self.lab[0], "asked", [self.moves, "spin", round(spin, 1)])
+            await self.visitor.set(self.lab[0], "request", [self.moves, "spin", round(spin, 1)])
         else:
             await self.visitor.set(self.slider[0], "value", value)
 
@@ -366,7 +366,7 @@ async def greedy(servers, few):
                     await asyncio.sleep(max(3, 9 // few))
                     beside.begin()
                     await asyncio.sleep(max(4, 10 // few))
-                    said = beside.said()
+                    said = beside.wording()
                 await asyncio.sleep(2)
                 before = server.seconds()
                 beside.begin()

@@ -203,7 +203,7 @@ def said_by(view):
     """What a view says of values that cannot be."""
     if isinstance(view, Lab):
         return view.scene.messages.values() if view.scene else ()
-    return [view.said.object] if "alert" in view.said.object else ()
+    return [view.wording.object] if "alert" in view.wording.object else ()
 
 
 def rounded(found):
@@ -222,7 +222,7 @@ def of_phone(shown):
     [phone], [lesson] = shown.select(Phone), shown.select(LessonView)
     with patch.object(type(pn.state), "onload", lambda state, act: act()):
         phone.mark = 32 * "0"
-    return {"language": text.spoken(), "room": "vote", "said": lesson.state["said"]}
+    return {"language": text.spoken(), "room": "vote", "said": lesson.state["wording"]}
 
 
 def start_of(start):
@@ -249,11 +249,11 @@ def playing_of(owners, has_face):
 
 def of_lesson(learn):
     """class: what the screen has of one."""
-    return {"step": learn.step, "section": learn.section, "class": learn.lesson.state.get("said", "")}
+    return {"step": learn.step, "section": learn.section, "class": learn.lesson.state.get("wording", "")}
 
 
 def of_map(choice):
-    asked = choice.asked
+    asked = choice.request
     sides = {"across": [asked.across, *asked.across_range], "up": [asked.up, *asked.up_range]}
     fixed = {name: value for name, value in asked.start.items() if name not in (asked.across, asked.up)}
     one = asked.at(*choice.place)

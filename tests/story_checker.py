@@ -114,7 +114,7 @@ def faults(told, stemless=False):
             bad += [(kind, name, why) for kind, why in story_words.faults(said)]
         given = runs.get("ordinary") or runs.get("ice", run)  # no table but the rough one grips
         bad += [(kind, name, why) for kind, why in story_kept.faults(run, rows(table["kept"]), given)]
-    for text in told.get("said", ()) if runs else ():
+    for text in told.get("wording", ()) if runs else ():
         run = next(iter(runs.values()))
         said = Said(text, run, Phase("", run.start, run.end), runs, stemless, True)
         bad += [(kind, "all", why) for kind, why in story_words.faults(said)]
@@ -123,7 +123,7 @@ def faults(told, stemless=False):
 
 def rows(kept):
     """{quantity: text} of the table of what is kept."""
-    return {name: row["said"] if isinstance(row, dict) else row for name, row in dict(kept).items()}
+    return {name: row["wording"] if isinstance(row, dict) else row for name, row in dict(kept).items()}
 
 
 def texts(run, table):

@@ -153,7 +153,7 @@ def test_the_page_says_which_law_it_is_and_has_its_inputs_only(law, inputs):
     tab = LabTab(lab, lambda: None)
     state, told = json.loads(tab.view.state), json.loads(tab.view.told)
     assert [name for name, *_ in told["rubs"]] == inputs
-    assert bool(state["law"]) == (law != "contact") == told["said"][1].endswith("level Research.")
+    assert bool(state["law"]) == (law != "contact") == told["wording"][1].endswith("level Research.")
     assert {*told["of"]} >= {"law", "spin", "tilt", *inputs} and ("mu" in told["of"]) == (law != "viscous")
     for name in inputs:
         low, high, *_ = state["sliders"][name]

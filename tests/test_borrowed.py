@@ -163,8 +163,8 @@ def test_style_sheets_of_a_part_without_a_document_stay_here(monkeypatch):
 # --- of components
 
 
-class Asked(JSComponent):
-    asked = param.Integer(default=0)
+class Requesting(JSComponent):
+    request = param.Integer(default=0)
     _esm = "export function render() {}"
 
 
@@ -175,13 +175,13 @@ def test_a_property_arrives_without_waiting(monkeypatch):
     monkeypatch.setattr(type(pn.state), "_add_busy_event", lambda state, name: busy.append(name))
     for prompt in (False, True):
         with set_curdoc(Document()):
-            component = Asked()
+            component = Requesting()
         if prompt:
-            borrowed.at_once(component, "asked")
+            borrowed.at_once(component, "request")
         document = Mock(session_context=True, add_timeout_callback=lambda act, wait: waits.append(wait))
-        component._server_change(document, "p1", None, "asked", 0, 1)
-        component._process_events({"asked": 2})
-        assert component.asked == 2
+        component._server_change(document, "p1", None, "request", 0, 1)
+        component._process_events({"request": 2})
+        assert component.request == 2
     assert waits == [50, 0] and len(busy) == 1
 
 

@@ -138,16 +138,16 @@ def test_many_pieces_have_their_controls_soon(builder, explorer):
 
 def test_a_dimension_that_cannot_be_says_so_and_offers_the_nearest_that_can(builder, explorer):
     bench, before = Build(builder), builder.draft.shape
-    bench.dimensions.view.asked = [1, "r", 99.0, True]
+    bench.dimensions.view.request = [1, "r", 99.0, True]
     state = json.loads(bench.dimensions.view.state)
     assert builder.draft.shape is before and state["refused"] == {"r": 99.0} and state["messages"]["r"]
     assert state["values"]["r"] == pytest.approx(1e3 * before.r)
     near = state["nearest"]["r"]
-    bench.dimensions.view.asked = [2, "r", near, True]
+    bench.dimensions.view.request = [2, "r", near, True]
     state = json.loads(bench.dimensions.view.state)
     assert not state["messages"] and builder.draft.shape.r == pytest.approx(near / 1e3) and near > state["answered"]
     builder.choose("Leine and Glocker's toy")  # its stem has a place of its own, which a larger sphere swallows
-    bench.dimensions.view.asked = [3, "R", 60.0, True]
+    bench.dimensions.view.request = [3, "R", 60.0, True]
     said = json.loads(bench.dimensions.view.state)["messages"]["R"]
     assert "radius of the sphere 60 mm" in said and "13 mm" in said  # names the field that was typed in
 

@@ -368,7 +368,7 @@ def test_no_kernel_starts_threads_or_loosens_arithmetic():
 async def moves(url):
     """The answer to a visitor who moves a slider of a rolling motion."""
     visitor = await Visitor.enter(f"{url}?tab=roll")
-    answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "asked", [1, "K_J", 6.5, False]))
+    answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "request", [1, "K_J", 6.5, False]))
     visitor.leave()
     return answered
 

@@ -35,7 +35,7 @@ def test_every_event_has_words(language):
     for before in contacts:
         for after in contacts:
             for event in [(kind, i) for kind in (HALTS, SLIPS, TOUCHES, LEAVES) for i in (0, 1)]:
-                names.add(EVENTS[change(*before, *after, event)][0])
+                names.add(EVENTS[change(before, after, event)][0])
     assert len(names) >= 13
     assert {*listed("planes.events", language)} == names | {THROWN, ANOTHER_TOUCHES}
 

@@ -13,7 +13,7 @@ import pytest
 import tippe_core
 from app.model.build.dimensions import sentence
 from app.text import CODES as OF_THE_PAGE
-from app.text import DEFAULT, LANGUAGES, listed, speaking, told
+from app.text import DEFAULT, LANGUAGES, error_text, listed, speaking
 from tippe_core import (
     Ball,
     BareSphere,
@@ -138,8 +138,8 @@ BAD = [
     ("out-of-range", lambda: cylinder(0.01, 0.02, 0.01)),
     ("not-finite", lambda: Coulomb("rough")),
     ("not-finite", lambda: Contensou(0.3, np.nan)),
-    ("other-kind", lambda: load_top(3)),
-    ("other-kind", lambda: f(1.0, None, None)),
+    ("wrong-kind", lambda: load_top(3)),
+    ("wrong-kind", lambda: f(1.0, None, None)),
     ("wrong-kind", lambda: Contensou(0.3, 0.1, pivots="yes")),
     ("wrong-count", lambda: Lathe(R=0.005, points=(), density=700.0)),
     ("wrong-count", lambda: Lathe(R=0.005, points=((0.01, 0.0), (0.01, 0.01)), density=(700.0,))),
@@ -191,9 +191,9 @@ def test_an_error_has_its_code_and_is_told_in_every_language(code, make):
         make()
     error = caught.value
     assert error.code == code and error.name and error.allowed and str(error).startswith(f"{error.name} = ")
-    assert told(error, DEFAULT) == str(error)
+    assert error_text(error, DEFAULT) == str(error)
     for language in OTHERS:
-        said = told(error, language)
+        said = error_text(error, language)
         assert said.endswith(".") and not re.search(r"[{}]|\b(is|the|not|allowed|at|of|be|must)\b", said), said
 
 
@@ -231,9 +231,12 @@ def test_an_argument_of_another_kind_is_named(function, name):
 def test_words_are_chosen_by_code_alone():
     """No word of the English text matters."""
     error = TopError("mu_s", 0.2, "μ_s ≥ 0.3", "!", code="below-sliding")
-    assert told(error, "de") == "mu_s = 0,2 ist nicht möglich: erlaubt ist μ_s ≥ 0,3. Die Haftreibung ist die größere."
+    assert (
+        error_text(error, "de")
+        == "mu_s = 0,2 ist nicht möglich: erlaubt ist μ_s ≥ 0,3. Die Haftreibung ist die größere."
+    )
     error = NoMotionError("E", 1.0, "?", "!", code="no-motion", least=2.5, K_J=7.0, K_R=10.0)
-    assert told(error, "de").startswith("E = 1 ist nicht möglich: erlaubt ist E >= 2,5 bei K_J = 7 und K_R = 10.")
+    assert error_text(error, "de").startswith("E = 1 ist nicht möglich: erlaubt ist E >= 2,5 bei K_J = 7 und K_R = 10.")
 
 
 def test_a_replaced_error_says_the_same_of_other_numbers():

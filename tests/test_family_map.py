@@ -166,7 +166,7 @@ def test_a_map_stops_when_told_and_refuses_what_cannot_be(explorer, monkeypatch)
     monkeypatch.setattr("app.tabs.families.compare.share_map", slowly)
     compare = Compare(explorer.scene)
     compare.compute()
-    assert not asked and "Cancelled" in compare.said.object and not compare.start.disabled
+    assert not asked and "Cancelled" in compare.wording.object and not compare.start.disabled
     for name, text in (("mu_s", "-1"), ("I1", "0"), ("K_R", "fast")):
         compare = Compare(explorer.scene)
         compare.entries[name].value = text

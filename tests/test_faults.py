@@ -274,7 +274,7 @@ def test_on_a_full_disk_where_the_system_lacks_what_windows_lacks_it_serves_and_
 
     async def visit():
         visitor = await Visitor.enter(f"http://127.0.0.1:{port}/app?tab=roll")
-        answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "asked", [1, "K_J", 6.5, False]))
+        answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "request", [1, "K_J", 6.5, False]))
         visitor.leave()
         return answered
 

@@ -45,7 +45,7 @@ def test_more_connections_than_files_are_closed_and_others_come_in_when_those_be
         inside = await Visitor.enter(f"{server.url}?tab=roll")
         silent = await asyncio.to_thread(crowd, server.url, 2 * FEW)
         await asyncio.to_thread(until, lambda: "as many files are open" in server.log)
-        answered, _ = await inside.answer(await inside.set(inside.group("K_J"), "asked", [1, "K_J", 6.5, False]))
+        answered, _ = await inside.answer(await inside.set(inside.group("K_J"), "request", [1, "K_J", 6.5, False]))
         inside.leave()
         return answered, silent
 

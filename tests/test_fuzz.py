@@ -51,7 +51,7 @@ SPECIAL = (
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
 HANDS = ("NumberControls", "Field", "Menu", "Choice", "Checks", "Stretch", "TextFile", "Head", "Painted",
-         "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "Moments", "Range1d", "ColumnDataSource",
+         "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "EventList", "Range1d", "ColumnDataSource",
          "Location", "Button", "Form")  # fmt: skip
 
 
@@ -144,7 +144,7 @@ async def among(url, messages):
     innocent = await Visitor.enter(of_roll(url))
     slider = innocent.group("K_J")
     said = await fuzz(url, messages)
-    answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, "K_J", 6.5, False]))
+    answered, _ = await innocent.answer(await innocent.set(slider, "request", [1, "K_J", 6.5, False]))
     assert answered == "OK"
     innocent.leave()
     return said
@@ -176,7 +176,7 @@ def test_messages_that_no_page_sends(attacked):
 
 async def moves(visitor):
     """Whether a slider of a rolling motion still moves."""
-    answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "asked", [1, "K_J", 6.5, False]))
+    answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "request", [1, "K_J", 6.5, False]))
     return answered == "OK"
 
 
@@ -196,7 +196,7 @@ async def no_messages(server):
     with pytest.raises(Closed):
         await visitor.receive()
     for i in range(200):
-        await deaf.set(deaf.group("K_J"), "asked", [i, "K_J", 6 + i / 1000, False])
+        await deaf.set(deaf.group("K_J"), "request", [i, "K_J", 6 + i / 1000, False])
     assert await moves(innocent)
     assert megabytes(server.process.pid) - before < 50
     deaf.leave(), innocent.leave()
@@ -213,14 +213,14 @@ def test_what_is_no_message_or_is_never_read_disturbs_nobody(attacked):
 
 ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 3000,
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
-GOOD = {"asked": [7, "K_J", 6.5, False], "hand": [], "tilted": [], "playing": False,
+GOOD = {"request": [7, "K_J", 6.5, False], "hand": [], "tilted": [], "playing": False,
         "gesture": 7, "dark": False}  # fmt: skip
 GOOD_OF = {
-    ("Head", "asked"): [7, "table", "rough"],
-    ("LabView", "asked"): [7, "tilt", 5.0],
+    ("Head", "request"): [7, "table", "rough"],
+    ("LabView", "request"): [7, "tilt", 5.0],
     ("PlaneView", "hand"): ["line", 0.5, 6.5],
     ("SectionView", "hand"): ["R", 10.6, -10.6],
-    ("LessonView", "asked"): [7, "section", "theorists"],
+    ("LessonView", "request"): [7, "section", "theorists"],
 }
 
 
@@ -290,8 +290,8 @@ def bombs(file, head):
     for dtype in (f"S{GIGABYTE}", f"({GIGABYTE // 8},)f8"):
         array = {"type": "ndarray", "array": [1], "dtype": dtype, "order": "little", "shape": [1]}
         yield file, "sent", [array, 1, 7]
-        yield head, "asked", array
-    yield head, "asked", {"type": "object", "name": "ColumnDataSource", "id": "new", "attributes": {"data": {}}}
+        yield head, "request", array
+    yield head, "request", {"type": "object", "name": "ColumnDataSource", "id": "new", "attributes": {"data": {}}}
 
 
 async def send_files(server):
@@ -343,11 +343,11 @@ def look(*events, models, buffers=()):
 
 
 @pytest.mark.parametrize("kind, attribute, takes, refuses", [
-    ("NumberControls1", "asked", [[1, "K_J", 6.5, False], [2, "K_J", "6,5", True]],
+    ("NumberControls1", "request", [[1, "K_J", 6.5, False], [2, "K_J", "6,5", True]],
      [None, 7, [], [1, "K_J", 6.5], [1, "K_J", 6.5, 0], [True, "K_J", 6.5, False], [-1, "K_J", 6.5, False],
       [1, "K_J", 1e16, False], [1, "K_J", [], False], [1, "K_J", "9" * 301, True], [1, "x" * 301, 6.5, False],
       [1, 7, 6.5, False], [1, "K_J", float("nan"), False], [1, "K_J", 10**400, False], [1, "K_J", 6.5, False, 0]]),
-    ("Head1", "asked", [[1, "room", "lab"], [2, "dark", True]],
+    ("Head1", "request", [[1, "room", "lab"], [2, "dark", True]],
      [None, 7, [1, "room"], [-1, "room", "lab"], [1, "room", 7], [1, "x" * 301, ""], [1, "toy", None]]),
     ("Choice1", "value", ["a", 7], ["c", 1, 7.0, True, None, ["a"], {}]),
     ("Menu1", "value", ["a", 7], ["c", 1, ["a"], {}, None]),
@@ -424,7 +424,7 @@ def test_the_table_has_what_our_scripts_change():
     scripts = [*(APP / "frontend/src").rglob("*.js"), *APP.rglob("*.py")]
     changed = {name for path in scripts
                for name in re.findall(r"\bmodel\.(\w+) (?:\+?=) ", path.read_text(encoding="utf-8"))}  # fmt: skip
-    assert {"asked", "painted", "tilted", "page"} <= changed
+    assert {"request", "painted", "tilted", "page"} <= changed
     assert changed - {name for attributes in CHANGES.values() for name in attributes} == set()
 
 

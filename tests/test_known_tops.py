@@ -53,13 +53,13 @@ def test_the_least_spin_is_that_of_runs(monkeypatch):
 def view():
     asked = []
     view = Tops(Explorer().scene, lambda **inputs: asked.append(inputs), asked.append, asked.append)
-    view.asked = asked
+    view.request = asked
     return view
 
 
 def test_a_click_shows_a_top_large_and_changes_nothing_else(view):
     view.map.picked = [1, "Loaded sphere"]
-    assert "148°" in view.head.object and view.map.state["chosen"] == "Loaded sphere" and view.asked == []
+    assert "148°" in view.head.object and view.map.state["chosen"] == "Loaded sphere" and view.request == []
     assert len(list(ElementTree.fromstring(f"<p>{view.figures.object}</p>").iter("svg"))) == 2
     view.map.picked = [2, "no such top"]
     assert view.map.state["chosen"] == "Loaded sphere"
@@ -82,7 +82,7 @@ def test_the_ring_is_the_pages_top_and_asks_for_another(view):
     here = view.map.state["here"]
     assert here["a"] == 0.07 and here["ratio"] == pytest.approx(0.399 / 0.408) and here["outline"] is None
     view.map.moved = [1, 0.2, 1.1]
-    assert view.asked == [{"a": 0.2, "I3": pytest.approx(0.399 / 1.1)}]
+    assert view.request == [{"a": 0.2, "I3": pytest.approx(0.399 / 1.1)}]
     view.show(Explorer(a=0.2, I3=0.399 / 1.1).scene)
     assert view.map.state["here"]["a"] == 0.2 and view.map.state["here"]["outline"]
     assert known_of(Explorer(a=0.2, I3=0.399 / 1.1).scene) is None

@@ -243,4 +243,4 @@ def test_what_each_keeps_is_what_its_trajectory_does():
     assert [round(last, 2) for *_, last in said["rough"][:3]] == [202.93, 4.90, 7.25]
     assert [first for _, first, _ in said["rough"]] == pytest.approx([first for _, first, _ in said["ice"]], rel=1e-3)
     assert said["ordinary"][2][1:] == list(moved["ordinary"].routh[[0, -1]])
-    assert scene.said[0] == "One start, three tables. Only rubbing turns it over."
+    assert scene.wording[0] == "One start, three tables. Only rubbing turns it over."

@@ -115,7 +115,7 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(lab):
         page.wait_for_function(
             """([handle, x, y]) => {
             const { left, top, width, height } = handle.getBoundingClientRect()
-            return Math.hypot(left + width / 2 - x, top + height / 2 - y) < 2 && handle.dataset.said.endsWith("°")
+            return Math.hypot(left + width / 2 - x, top + height / 2 - y) < 2 && handle.dataset.wording.endsWith("°")
         }""",
             arg=[handle.element_handle(), x + across, y + down],
         )

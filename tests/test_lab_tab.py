@@ -28,7 +28,7 @@ def tab(monkeypatch):
 
 
 def wish(tab, *asked):
-    tab.view.asked = list(asked)
+    tab.view.request = list(asked)
     return shown(tab)
 
 

@@ -18,7 +18,7 @@ from app.model.published import curves as curves_of
 from app.model.roll import derivation
 from app.state.url_state import read
 from app.tabs.learn.learn import Learn
-from app.tabs.learn.published import Steps, curve_said
+from app.tabs.learn.published import Steps, curve_data
 from app.tabs.learn.teach import link
 from app.tabs.learn.worksheet import worksheet
 from app.text import listed, say, speaking
@@ -140,7 +140,7 @@ def test_a_walk_through_the_lesson_on_a_german_phone(learn):
 
 
 def test_a_slider_of_the_step_shows_what_steps_do_to_coulombs_law(alone):
-    found, curves = alone(), [curve_said(curve) for curve in curves_of()]
+    found, curves = alone(), [curve_data(curve) for curve in curves_of()]
     page = found.show(Steps(curves=curves, points=[]))
     says = page.locator(".steps li")
     says.first.wait_for()
@@ -263,13 +263,13 @@ def test_a_class_with_two_phones_that_goes_on_where_the_network_does_not(chromiu
     page.route_web_socket(re.compile("/ws"), lambda each: connected(each, sockets))
     opened(page, f"{server}?tab=learn", 1920, 1080)
     presented(page)
-    page.locator(".link-said").get_by_text("?vote=").wait_for()
+    page.locator(".link-address").get_by_text("?vote=").wait_for()
     page.locator(".count").get_by_text(say("teach.room.nobody")).wait_for()
     assert page.locator(".qr svg").bounding_box()["height"] > 300  # it must be readable across a room
     assert page.locator(".warning").inner_text() == say("teach.room.local")
     check(page, "the big screen", DARK_LARGE)
     page.evaluate(LOOK, LIGHT)
-    address = f"http://{page.locator('.link-said').inner_text()}"
+    address = f"http://{page.locator('.link-address').inner_text()}"
     students = [opened(phone.new_page(), f"{address}&lang={each}", 390, 844)
                 for phone, each in zip(phones, languages, strict=True)]  # fmt: skip
     for phone, option, language in zip(students, ("over", "falls"), languages, strict=True):

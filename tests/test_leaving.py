@@ -135,9 +135,12 @@ async def ask_of_a_broken_server(here, monkeypatch):
 
     dial = page.visitor.group("K_J")
     await fails(
-        page, monkeypatch, "app.model.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, "K_J", 5.5, False])
+        page,
+        monkeypatch,
+        "app.model.explorer.Explorer._solve",
+        lambda: page.set(dial, "request", [1, "K_J", 5.5, False]),
     )
-    await page.set(dial, "asked", [2, "K_J", 5.6, False])
+    await page.set(dial, "request", [2, "K_J", 5.6, False])
     await page.until(
         lambda: (told := json.loads(page.now(dial, "state")))["answered"] == 2 and told["values"]["K_J"] == 5.6
     )
@@ -229,7 +232,7 @@ async def flood(here, monkeypatch):
 
     def clicked(download, event):
         click(download, event)
-        heard.append((download._asked[1][0].constants.K_J, event.new))
+        heard.append((download._requested[1][0].constants.K_J, event.new))
 
     click, heard = Download._clicked, []
     monkeypatch.setattr(Download, "_clicked", clicked)

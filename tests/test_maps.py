@@ -147,12 +147,12 @@ def test_what_is_mixed():
     end[3, 4] = "stem"
     columns = {name: np.full((5, 5), np.nan) for name in UNITS}
     columns["growth"][0, 3:] = 1001.0, 999.0
-    mixed = Level(asked=Map(), x=np.arange(5.0), y=np.arange(5.0), end=end, columns=columns).mixed
+    mixed = Level(request=Map(), x=np.arange(5.0), y=np.arange(5.0), end=end, columns=columns).mixed
     assert np.argwhere(mixed).tolist() == [[0, 3], [1, 1], [3, 3], [3, 4]]
     alone = np.full((5, 5), "", "<U8")  # no neighbour was run yet
     alone[::2, ::2] = "stem"
     none = {name: np.full((5, 5), np.nan) for name in UNITS}
-    assert not Level(asked=Map(), x=np.arange(5.0), y=np.arange(5.0), end=alone, columns=none).mixed.any()
+    assert not Level(request=Map(), x=np.arange(5.0), y=np.arange(5.0), end=alone, columns=none).mixed.any()
 
 
 # ---- what a cell is ----
@@ -199,7 +199,7 @@ def test_the_slip_at_the_start_is_a_share_of_that_of_a_top_at_rest(slip):
 def test_the_run_of_a_place_is_that_of_its_cell(level):
     """With its hops; and the toy, which does not hop, is on its stem alone from when its ball leaves the table."""
     i, j = level.cell(44.0, 6.0)
-    found = run(level.asked, level.x[j], level.y[i])
+    found = run(level.request, level.x[j], level.y[i])
     assert (found.end, found.hops) == (level.end[i, j], level.columns["hops"][i, j])
     assert found.time_90 == pytest.approx(level.columns["time_90"][i, j], rel=1e-9)
     assert found.time_90 < level.columns["time_stem"][i, j] <= found.time_stem  # touched, and alone
@@ -253,37 +253,39 @@ def test_maps_are_kept_and_bounded(level, monkeypatch, tmp_path):
     before = last(Map(cells=3, seconds=0.4))
     kept.keep(before)
     kept._memory.clear()
-    assert kept.recall(before.asked) is None
+    assert kept.recall(before.request) is None
     kept.keep_in(tmp_path / "maps")
     kept.keep(before)
     [file] = (tmp_path / "maps").iterdir()
     monkeypatch.setattr(kept, "AS_FILES", 2.5 * file.stat().st_size)
     maps = [last(Map(cells=3, seconds=seconds)) for seconds in (0.1, 0.2, 0.3)]
     for each in maps:
-        assert kept.recall(each.asked) is None
+        assert kept.recall(each.request) is None
         kept.keep(each)
     assert len(kept._memory) == 1
     assert len([*(tmp_path / "maps").iterdir()]) == 2
     kept._memory.clear()
-    assert kept.recall(before.asked) is kept.recall(maps[0].asked) is None
-    again = kept.recall(maps[1].asked)
+    assert kept.recall(before.request) is kept.recall(maps[0].request) is None
+    again = kept.recall(maps[1].request)
     np.testing.assert_array_equal(again.end, maps[1].end)
     for name in UNITS:
         np.testing.assert_array_equal(again.columns[name], maps[1].columns[name])
     for file in (tmp_path / "maps").iterdir():
         file.write_bytes(b"broken")
     kept._memory.clear()
-    assert kept.recall(maps[2].asked) is None
+    assert kept.recall(maps[2].request) is None
 
 
 def test_what_was_shown_last_stays_in_memory(level, monkeypatch):
     monkeypatch.setattr(kept, "IN_MEMORY", 2)
-    first, second, third = (replace(level, asked=replace(level.asked, seconds=seconds)) for seconds in (1.0, 2.0, 3.0))
+    first, second, third = (
+        replace(level, request=replace(level.request, seconds=seconds)) for seconds in (1.0, 2.0, 3.0)
+    )
     kept.keep(first)
     kept.keep(second)
-    assert kept.recall(first.asked) is first
+    assert kept.recall(first.request) is first
     kept.keep(third)
-    assert kept.recall(first.asked) is first and kept.recall(second.asked) is None
+    assert kept.recall(first.request) is first and kept.recall(second.request) is None
 
 
 UPS = ["tilt", "mu", "second", "slip", "a", "ratio", "R", "stem", "rounding"]
@@ -304,7 +306,7 @@ def test_its_python_makes_it(up, law):
 def test_files_say_what_they_are_of(level):
     head, *rows = made(level, "end", "csv").decode().splitlines()
     parameters = json.loads(head[2:])
-    assert parameters["body"] == level.asked.body and parameters["units"]["time_90"] == "s"
+    assert parameters["body"] == level.request.body and parameters["units"]["time_90"] == "s"
     table = list(csv.DictReader(io.StringIO("\n".join(rows))))
     assert len(table) == 81 and table[10]["end"] == level.end[1, 1]
     assert [row["mixed"] for row in table] == [str(int(mixed)) for mixed in level.mixed.ravel()]

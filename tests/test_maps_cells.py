@@ -38,7 +38,7 @@ def random_cell(rng, laws=LAWS):
     level = list(solve(random_map(rng, laws)))[-1]
     i, j = rng.integers(0, 3, 2)
     column = {name: float(values[i, j]) for name, values in level.columns.items()}
-    return (float(level.x[j]), float(level.y[i])), column, str(level.end[i, j]), level.asked
+    return (float(level.x[j]), float(level.y[i])), column, str(level.end[i, j]), level.request
 
 
 def single(cell, times):
@@ -180,5 +180,5 @@ TOP_S = {"body": "Top S", "across_range": (12.0, 18.0), "up_range": (5.0, 20.0),
 def test_ends_that_few_random_cells_have_are_those_of_the_body_too(end, law, how):
     level = list(solve(Map(law=law, cells=3, nudged=True, rtol=1e-9, **how)))[-1]
     i, j = np.argwhere(level.columns["growth"] < 1)[0]
-    cell = level.asked.at(level.x[j], level.y[i])
+    cell = level.request.at(level.x[j], level.y[i])
     assert told({name: values[i, j] for name, values in level.columns.items()}, level.end[i, j], cell) == end

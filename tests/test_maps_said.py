@@ -33,7 +33,7 @@ def told(law, at, end, time_stem=np.nan, hops=0.0):
     columns = {name: np.full((3, 3), np.nan) for name in UNITS}
     ends[at], columns["time_stem"][at], columns["hops"][at] = end, time_stem, hops
     x, y = asked.centres(3)
-    found = disagreements(Level(asked=asked, x=x, y=y, end=ends, columns=columns))
+    found = disagreements(Level(request=asked, x=x, y=y, end=ends, columns=columns))
     assert all(each.count == 1 and each.reasons[0][1:] == (1, (x[at[1]], y[at[0]])) for each in found)
     return {each.kind: each.reasons[0].why for each in found}
 
@@ -63,7 +63,7 @@ def test_each_reason_is_told_with_the_number_of_its_runs_the_most_frequent_first
     ends, none = np.full((3, 3), "inverted", "<U8"), np.full((3, 3), np.nan)
     ends[0], ends[1, 1] = "leaning", "moving"
     x, y = asked.centres(3)
-    (found,) = disagreements(Level(asked=asked, x=x, y=y, end=ends, columns=dict.fromkeys(UNITS, none)))
+    (found,) = disagreements(Level(request=asked, x=x, y=y, end=ends, columns=dict.fromkeys(UNITS, none)))
     assert (found.kind, found.count, found.allowed, found.low, found.high) == ("lies", 4, 9, x[0], x[2])
     assert found.reasons == (("leans", 3, (x[1], y[0])), ("moving", 1, (x[1], y[1])))
     first, second = (of_reason(found, k, asked) for k in (0, 1))
@@ -84,7 +84,7 @@ def test_what_stays_upright_was_too_short_or_has_lost_its_spin():
                     seconds=seconds, values=(("second", 2.0),))  # fmt: skip
         x, y = asked.centres(3)
         columns = {name: np.full((3, 3), np.nan) for name in UNITS}
-        level = Level(asked=asked, x=x, y=y, end=np.full((3, 3), "upright"), columns=columns)
+        level = Level(request=asked, x=x, y=y, end=np.full((3, 3), "upright"), columns=columns)
         found = next(each for each in disagreements(level) if each.kind == "stays")
         said |= {(place, seconds): reason.why for reason in found.reasons for place in [reason.one]}
     for (place, seconds), why in said.items():
@@ -100,7 +100,7 @@ def test_the_worst_number_may_be_below_zero():
     asked = Map(cells=3)
     columns = {name: np.full((3, 3), np.nan) for name in UNITS}
     columns["energy_error"][0] = -5e-6, 1e-6, 0.0
-    level = Level(asked=asked, x=np.arange(3.0), y=np.arange(3.0), end=np.full((3, 3), "stem"), columns=columns)
+    level = Level(request=asked, x=np.arange(3.0), y=np.arange(3.0), end=np.full((3, 3), "stem"), columns=columns)
     assert level.worst("energy_error") == 5e-6 and np.isnan(level.worst("C_J_drift"))
 
 

@@ -140,29 +140,31 @@ def test_a_click_goes_to_the_run_of_a_cell(tab):
 
 def test_another_axis_law_and_colour(tab):
     tab.settings.choices["law"].value = "smoothed"
-    assert tab.asked.law == "smoothed" and tab.asked.start["second"] == 0.1
+    assert tab.request.law == "smoothed" and tab.request.start["second"] == 0.1
     tab.settings.choices["up"].value = "mu"
     assert (
-        tab.asked.up_range == (0.05, 0.6)
+        tab.request.up_range == (0.05, 0.6)
         and not tab.settings.entries["mu"].visible
         and tab.settings.entries["tilt"].visible
     )
     tab.settings.choices["colour"].value = "growth"
-    assert tab.asked.nudged and np.isfinite(tab.level.columns["growth"]).any()
+    assert tab.request.nudged and np.isfinite(tab.level.columns["growth"]).any()
 
 
 def test_a_box_looks_closer_and_the_whole_range_comes_back(tab):
     tab._by_hand({"x": [30.0, 20.0], "y": [5.0, 10.0], "cell": [0, 0]})
-    assert (tab.asked.across_range, tab.asked.up_range) == ((20.0, 30.0), (5.0, 10.0))
+    assert (tab.request.across_range, tab.request.up_range) == ((20.0, 30.0), (5.0, 10.0))
     assert tab.level.x[0] == pytest.approx(20 + 10 / 6) and 20 < tab.choice.place[0] < 30
     tab.settings.look_at(*tab._usual_spans())
-    assert tab.asked.across_range == (5.0, 50.0)
+    assert tab.request.across_range == (5.0, 50.0)
 
 
 def test_the_button_looks_closer_around_the_bead_and_never_beyond_the_map(tab):
     tab.go(20.0, 39.0)
     tab.settings.look_at(*tab._around())
-    assert tab.asked.across_range == pytest.approx((12.5, 27.5)) and tab.asked.up_range == pytest.approx((27.0, 40.0))
+    assert tab.request.across_range == pytest.approx((12.5, 27.5)) and tab.request.up_range == pytest.approx(
+        (27.0, 40.0)
+    )
     assert tab.choice.place == [20.0, 39.0]
 
 
@@ -197,17 +199,17 @@ def test_the_map_is_in_the_address_and_undone():
     tab.settings.entries["cells"].value = "3"
     tab.settings.choices["law"].value = "smoothed"
     tab.settings.entries["mu"].value = "0.25"
-    asked = tab.choice.asked
+    asked = tab.choice.request
     texts, sentence = read(url_state.query)
     again = MapText.value(texts["map"])
     assert not sentence and again == asked and dict(again.values) == {"mu": 0.25}
     url_state.undo()
-    assert tab.settings.entries["mu"].value == "0.3" and tab.asked.values == ()
+    assert tab.settings.entries["mu"].value == "0.3" and tab.request.values == ()
     url_state.undo()
-    assert tab.asked.law == "contensou"
+    assert tab.request.law == "contensou"
     url_state.redo()
     url_state.redo()
-    assert tab.choice.asked == asked
+    assert tab.choice.request == asked
     for odd in ("", "spin", "_".join(["spin"] * 10), MapText.text(asked) + "_mu", MapText.text(asked) + "_own_3"):
         with pytest.raises(ValueError):
             MapText.value(odd)
@@ -226,33 +228,33 @@ def few_cells(monkeypatch):
 
 
 def test_the_pages_top_slides(few_cells):
-    assert Maps(scene=solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)).asked.body == "The paper's tippe top"
+    assert Maps(scene=solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)).request.body == "The paper's tippe top"
     own = Top(0.1, 0.42, 0.41)
     tab = Maps(scene=solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None))
-    assert tab.asked.body == OWN and tab.asked.thing.top == own and tab.level.finest
+    assert tab.request.body == OWN and tab.request.thing.top == own and tab.level.finest
     toy = next(preset for preset in PRESETS if preset.name == "Leine and Glocker's toy")
     tab.show(solve_scene(toy.top, 7.0, 10.0, 0.5, 0.5, shape=toy.shape))
-    assert tab.asked.body == toy.name and tab.asked.own is None
+    assert tab.request.body == toy.name and tab.request.own is None
 
 
 def test_a_link_has_the_map_of_the_pages_own_top(few_cells):
     own = Top(0.1, 0.42, 0.41)
     scene = solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None)
-    text = MapText.text(replace(Maps(scene=scene).choice.asked, law="viscous", cells=3))
+    text = MapText.text(replace(Maps(scene=scene).choice.request, law="viscous", cells=3))
     tab = Maps(scene=scene)
-    tab.choice.asked = MapText.value(text)
-    assert tab.asked.thing.top == own and tab.level.finest
-    assert MapText.text(tab.choice.asked) == text
+    tab.choice.request = MapText.value(text)
+    assert tab.request.thing.top == own and tab.level.finest
+    assert MapText.text(tab.choice.request) == text
     stem = replace(Map(), across="stem", up="spin", across_range=(16.0, 40.0), up_range=(5.0, 50.0), cells=3)
-    tab.choice.asked = MapText.value(MapText.text(replace(stem, body=OWN)))  # which a top without a stem has not
-    assert tab.choice.asked == tab.usual["asked"] and tab.said.object
+    tab.choice.request = MapText.value(MapText.text(replace(stem, body=OWN)))  # which a top without a stem has not
+    assert tab.choice.request == tab.usual["request"] and tab.wording.object
 
 
 def test_the_run_of_the_bead_goes_to_the_lab():
     thrown = []
     tab = Maps(throw=lambda *start: thrown.append(start))
     assert tab.thrown.visible and not thrown  # the map alone sets no start
-    tab.choice.asked = replace(Map(), across_range=(20.0, 30.0), cells=3)
+    tab.choice.request = replace(Map(), across_range=(20.0, 30.0), cells=3)
     assert not thrown
     tab.go(30.0, 8.0)
     assert thrown == [("Leine and Glocker's toy", 30.0, 8.0, 0.3, False)]

@@ -87,7 +87,7 @@ def test_a_table_that_needs_a_word_more_has_no_data_before():
     made = Measure(Explorer().scene)
     made.take_example("rolls")
     made.take(FRAMES)
-    assert "frames" in made.said.object and made._data is None and made._example == ""
+    assert "frames" in made.wording.object and made._data is None and made._example == ""
     made.columns.rate.value = "240"
     assert made._data.t[-1] == pytest.approx(29 / 240)
     made.take(FRAMES)  # of another camera
@@ -106,11 +106,11 @@ def test_of_a_film_of_hours_a_part_is_fitted(monkeypatch):
     made = Measure(Explorer().scene)
     monkeypatch.setattr(shown, "shown", lambda model, data: pytest.fail("run") if np.ptp(data.t) > LONGEST else None)
     made.take(long_table(1.0))
-    assert made.part.value == [0, LONGEST] and "599 s" in made.said.object and not made.start.disabled
+    assert made.part.value == [0, LONGEST] and "599 s" in made.wording.object and not made.start.disabled
     made._pulled(300.0)
-    assert made.part.value == [300.0, 300.0] and "8 measured values, and at most 60 s" in made.said.object
+    assert made.part.value == [300.0, 300.0] and "8 measured values, and at most 60 s" in made.wording.object
     made.take(long_table(30.0))
-    assert "ms as the unit" in made.said.object and made.start.disabled and made.part.end == pytest.approx(17_970)
+    assert "ms as the unit" in made.wording.object and made.start.disabled and made.part.end == pytest.approx(17_970)
 
 
 def test_a_guess_is_chosen_by_the_beginning_of_a_film(monkeypatch):
@@ -134,7 +134,7 @@ def test_a_line_is_that_of_the_file(each, line):
     kept = [row for i, row in enumerate(file) if i < 12 or i % each == 0]
     made = Measure(Explorer().scene)
     made.take("\n".join(kept), each)
-    assert f"Line {line}, column tilt" in made.said.object
+    assert f"Line {line}, column tilt" in made.wording.object
 
 
 @pytest.mark.slow
@@ -154,9 +154,9 @@ def test_the_example_that_slips_is_told_so_and_recovered(tab):
 def test_what_cannot_be_read_leaves_what_was_there(tab):
     before = tab.pictures.view.objects, tab._data, tab._found
     tab.take("no table\n")
-    assert 'role="alert"' in tab.said.object and "ine 1" in tab.said.object
+    assert 'role="alert"' in tab.wording.object and "ine 1" in tab.wording.object
     assert (tab.pictures.view.objects, tab._data, tab._found) == before
-    assert "Still shown: Example: it slips" in tab.said.object
+    assert "Still shown: Example: it slips" in tab.wording.object
 
 
 @pytest.mark.slow

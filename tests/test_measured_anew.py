@@ -80,7 +80,7 @@ def test_a_table_without_data_leaves_nothing_of_the_one_before(fitted, text):
 
 def test_data_that_cannot_be_fitted_leave_nothing_of_the_ones_before(fitted):
     fitted.take(FAR, name="mine.txt")
-    assert is_blank(fitted) and "cannot be fitted" in fitted.said.object
+    assert is_blank(fitted) and "cannot be fitted" in fitted.wording.object
     assert not any(part.curve.data["t"].size for part in fitted.pictures._parts.values())
 
 
@@ -93,39 +93,39 @@ def test_where_no_column_is_known_the_page_asks_at_its_top(language):
         says = {"en": "No column was recognised. Say what each is:",
                 "de": "Keine Spalte wurde erkannt. Geben Sie an, was jede ist:",
                 "es": "No se ha reconocido ninguna columna. Di qué es cada una:"}[language]  # fmt: skip
-        assert f'role="alert">{says}<' in tab.said.object
+        assert f'role="alert">{says}<' in tab.wording.object
         over = next(part for part in tab.view.objects if "over" in part.css_classes)
-        assert over.objects[:2] == [tab.said, tab.over] and tab.over.objects == [tab.columns.view]
+        assert over.objects[:2] == [tab.wording, tab.over] and tab.over.objects == [tab.columns.view]
         assert len(tab.columns.view.objects[0].views) == 4  # three columns, and the frame rate
 
 
 def test_a_file_that_cannot_be_read_says_what_is_still_shown(fitted):
     before = fitted.found.object, fitted.stage.frames, fitted.filmed.film
     fitted.take(ZIP, name="export.zip")
-    assert "cannot be opened" in fitted.said.object and "Still shown: Example: it slips" in fitted.said.object
+    assert "cannot be opened" in fitted.wording.object and "Still shown: Example: it slips" in fitted.wording.object
     assert (fitted.found.object, fitted.stage.frames, fitted.filmed.film) == before and not fitted.take_home.disabled
     fitted.take(KNOWN, name="<b>first</b>.txt")
     fitted.take(ZIP, name="export.zip")
-    assert "Still shown: &lt;b&gt;first&lt;/b&gt;.txt" in fitted.said.object
+    assert "Still shown: &lt;b&gt;first&lt;/b&gt;.txt" in fitted.wording.object
     fitted.law.value = "viscous"  # the page goes on with what is shown
-    assert "Still shown" not in fitted.said.object and not fitted.start.disabled
+    assert "Still shown" not in fitted.wording.object and not fitted.start.disabled
 
 
 def test_a_table_whose_lines_are_too_long_is_said_with_its_size(fitted):
     fitted.file.table = ["", 0, 1, "wide.csv", 4_000_000]
-    assert "4,000 kB" in fitted.said.object and "Still shown: Example" in fitted.said.object
+    assert "4,000 kB" in fitted.wording.object and "Still shown: Example" in fitted.wording.object
     fitted.file.table = [KNOWN, 1, 2, "mine.txt", len(KNOWN)]
     fitted.file.table = ["", 0, 3, "wide.csv", 4_000_000]
-    assert "Still shown: mine.txt" in fitted.said.object
+    assert "Still shown: mine.txt" in fitted.wording.object
 
 
 def test_a_part_that_is_long_enough_again_takes_the_sentence_away():
     tab = Measure(Explorer().scene, Later())
     tab.take(KNOWN)
     tab._pulled(0.98)
-    assert 'role="alert"' in tab.said.object and is_blank(tab)
+    assert 'role="alert"' in tab.wording.object and is_blank(tab)
     tab._pulled(0.1)
-    assert "alert" not in tab.said.object and not tab.start.disabled
+    assert "alert" not in tab.wording.object and not tab.start.disabled
 
 
 def test_what_is_still_being_computed_of_one_film_is_not_shown_with_the_next():

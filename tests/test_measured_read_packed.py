@@ -284,7 +284,7 @@ def test_a_file_that_comes_in_pieces_is_opened_when_all_are_there():
     assert {*tab._data.series} == {"spin"} and tab._name == "export.zip"
     noise = np.random.default_rng(1).bytes(250_000)
     sent(tab, FILES["phyphox's zip"] + noise, name="other.zip")
-    assert "cannot be opened" in tab.said.object and "Still shown: export.zip" in tab.said.object
+    assert "cannot be opened" in tab.wording.object and "Still shown: export.zip" in tab.wording.object
 
 
 def test_pieces_that_no_page_sends_are_passed_over(caplog):
@@ -299,7 +299,7 @@ def test_pieces_that_no_page_sends_are_passed_over(caplog):
         tab.file.piece = piece
     assert len(caplog.records) == 4 and tab._name == "mine.txt"
     tab.file.piece = ["", 0, 1, 2, "big.xlsx", 7_000_000]
-    assert "7.0 MB" in tab.said.object and "2 MB" in tab.said.object
+    assert "7.0 MB" in tab.wording.object and "2 MB" in tab.wording.object
 
 
 def test_deflate_cannot_make_two_megabytes_more_than_the_memory_that_is_allowed():

@@ -15,7 +15,7 @@ from app.model.measured.data import Data, Series, roughness
 from app.model.measured.film import table_of
 from app.model.measured.fit import FAR, Fit, verdict
 from app.model.measured.motion import BOUNDS, Residuals, model_of, residuals_of, shifted
-from app.model.measured.remembered import checked, remembered, said_of
+from app.model.measured.remembered import checked, remembered, stored_fit
 from app.model.measured.report import program, residuals_table
 from app.model.measured.work import Found
 from app.tabs.measure.measure import Measure
@@ -118,7 +118,7 @@ def test_a_model_that_was_given_up_says_so_and_is_ruled_out(language):
     sliding = replace(a_fit(row=far)[0], sure=False)
     assert verdict(rolling, sliding) == "unsure"
     sliding = replace(sliding, given_up=True)
-    said = json.loads(json.dumps(said_of(sliding)))
+    said = json.loads(json.dumps(stored_fit(sliding)))
     with speaking(language):
         for fit in (sliding, remembered(sliding.model, data, checked(said, sliding.model))):
             assert fit.given_up and verdict(rolling, fit) == "rolled"

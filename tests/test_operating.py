@@ -66,7 +66,7 @@ def test_a_refusal_is_logged_once_in_ten_seconds_for_each_address_and_then_with_
     for number in range(30_000):  # many addresses are not remembered for ever
         now[0] += 0.01
         refused(str(number), "full", "refused %s: %s", number, "full")
-    assert len(seldom._said) <= 10_002 and seldom.errors == 0
+    assert len(seldom._passed) <= 10_002 and seldom.errors == 0
     logger.error("a bug")
     assert seldom.errors == 1
 
@@ -335,7 +335,7 @@ def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
 
     async def visit():
         visitor = await Visitor.enter(f"{server.url}?tab=roll")
-        answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "asked", [1, "K_J", 6.5, False]))
+        answered, _ = await visitor.answer(await visitor.set(visitor.group("K_J"), "request", [1, "K_J", 6.5, False]))
         assert answered == "OK" and "takes the place" not in server.log
         visitor.leave()
 

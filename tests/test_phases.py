@@ -198,7 +198,7 @@ def test_a_top_that_hangs_does_not_fall_and_its_life_is_computed():
 def test_it_tells_of_a_link_what_the_page_says(language):
     told = tell("", language)
     ordinary = told["tables"]["ordinary"]
-    assert told["said"][0] == listed("lab.three.turned", language)
+    assert told["wording"][0] == listed("lab.three.turned", language)
     stages = listed("lab.stages", language)
     assert [phase["headline"] for phase in ordinary["phases"]][:2] == [
         stages[name]["headline"] for name in ("rises", "over")

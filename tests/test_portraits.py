@@ -5,7 +5,7 @@ import pytest
 
 from app.model.explorer import Explorer
 from app.model.roll.portraits import pushes, square, track
-from app.state.asked import Unasked
+from app.state.validate import InvalidMessage
 from app.widgets import choices
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from tippe_core.paper.curve import f
@@ -62,7 +62,7 @@ def test_a_choice_calls_what_it_was_given_and_nothing_unknown():
     for name, value in (("toy", "Top S"), ("language", "de"), ("share", None)):
         does[name](value)
         if value:
-            with pytest.raises(Unasked):
+            with pytest.raises(InvalidMessage):
                 does[name]("a yo-yo")
     assert told == ["Top S", "de", "share"]
 

@@ -159,7 +159,7 @@ def test_the_story_tells_it_in_both_languages_and_names_no_other_cause():
     with speaking("de"):
         assert any("Nach 2,31 s angestoßen: 3,04 mN s." in stage.why for stage in story(motion).stages)
     all_three = scene_of("three", replace(PUSHED, pushes=(SOFT,)))
-    assert "The same push went to all of them at 2.31 s: 0.806 mN s." in all_three.said[1]
+    assert "The same push went to all of them at 2.31 s: 0.806 mN s." in all_three.wording[1]
     assert all(motion and len(motion.pushes) == 1 for motion in all_three.motions.values())
 
 
@@ -193,7 +193,7 @@ def test_a_link_with_something_else_leaves_it_out(text):
 
 
 def test_what_a_browser_may_send_of_them_is_bounded():
-    allowed = CHANGES["LabView"]["asked"]
+    allowed = CHANGES["LabView"]["request"]
     assert allowed.fits([1, "pushes", TEXT], None)
     assert not allowed.fits([1, "pushes", "1" * (Pushes.LONGEST + 1)], None)
     assert not allowed.fits([1, "spin", TEXT * 8], None)

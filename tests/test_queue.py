@@ -130,7 +130,7 @@ async def ask_in_two_languages(url, go):
         await page.visitor.ready()
         [failure], [lab] = page.visitor.find("Failure"), page.visitor.find("LabView")
         before = page.now(lab, "frames_ordinary")
-        await page.set(lab, "asked", [1, "spin", 21.0])
+        await page.set(lab, "request", [1, "spin", 21.0])
         place = len(said) + 1
         await page.until(lambda: page.now(failure, "waits") == say("main.queue.waits", language, count=place))  # noqa: B023
         said.append((page, failure, lab, before, language))

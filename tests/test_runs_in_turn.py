@@ -149,10 +149,10 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
     compare.compute()  # two clicks, before the button disappears
     assert first.stopped
     compare.cancel.clicks += 1
-    while not compare.said.object:
+    while not compare.wording.object:
         assert not compare.cancel.disabled
         page.next()
-    assert "Cancelled" in compare.said.object and not compare.start.disabled
+    assert "Cancelled" in compare.wording.object and not compare.start.disabled
 
 
 def test_what_a_hand_waits_for_does_not_wait_for_the_rest_of_other_runs(page, monkeypatch):

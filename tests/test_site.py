@@ -58,7 +58,7 @@ def test_it_plays_and_says_what_the_explorer_says_of_that_start(page):
     page.get_by_role("radio", name="Rough").click()
     reads(page, headlines(20, "en", "rough"))
     page.get_by_role("button", name=re.compile("^Next")).click()
-    expect(page.locator(".say .big")).to_have_text(tell(START.format(20))["said"][0])
+    expect(page.locator(".say .big")).to_have_text(tell(START.format(20))["wording"][0])
     assert page.locator(".caption").count() and not page.get_by_role("button", name=re.compile("^Next")).is_visible()
 
 

@@ -187,7 +187,7 @@ async def class_opens(server):
 
     async def move():
         while True:
-            await other.set(dial, "asked", [len(moves) + 1, "K_J", 6 + 0.01 * (len(moves) % 90), False])
+            await other.set(dial, "request", [len(moves) + 1, "K_J", 6 + 0.01 * (len(moves) % 90), False])
             moves.append(time.monotonic())
             await asyncio.sleep(0.02)
 

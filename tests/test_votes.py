@@ -57,12 +57,12 @@ async def opened(url, language="en"):
 
 async def wishes(page, name, value=""):
     """Sends a request as the screen or a phone does."""
-    page.asked = getattr(page, "asked", 0) + 1
-    await page.set(page.visitor.find("LessonView")[0], "asked", [page.asked, name, value])
+    page.sent = getattr(page, "sent", 0) + 1
+    await page.set(page.visitor.find("LessonView")[0], "request", [page.sent, name, value])
 
 
 async def hears(page, words):
-    await page.until(lambda: words in (state(page).get("said"), room(page).get("said")))
+    await page.until(lambda: words in (state(page).get("wording"), room(page).get("wording")))
 
 
 async def counted(page, count):
@@ -100,7 +100,7 @@ async def student(url, code, phone, language="en"):
 
 
 async def comes(page, step="flips"):
-    await page.until(lambda: state(page).get("step") == step and room(page).get("asked") == step)
+    await page.until(lambda: state(page).get("step") == step and room(page).get("question") == step)
 
 
 async def votes(page, answer):

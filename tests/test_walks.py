@@ -43,7 +43,7 @@ SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room
 
 
 STATIONS = (
-    (Numbers, "_asked"), (Rolling, "_on_plane"), (RenderScheduler, "ask"), (Explorer, "_solve"),
+    (Numbers, "_on_request"), (Rolling, "_on_plane"), (RenderScheduler, "ask"), (Explorer, "_solve"),
     (RenderScheduler, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"),
     (PlaneView, "show_selected"), (PlaneView, "show_plane"),
     (Controls, "show"), (Guide, "show"), (PlaneCard, "show_path"), (LabTab, "_heard"), (Lab, "ask"), (Lab, "_begin"),
@@ -113,7 +113,7 @@ PAPERS = "?v=3&tab=roll"
 
 def test_the_walk_of_a_slider(walk):
     made, passed, rest = walk(PAPERS)
-    made[Controls].numbers.view.asked = [1, "K_J", 6.5, False]
+    made[Controls].numbers.view.request = [1, "K_J", 6.5, False]
     rest()
     assert made[Rolling]._scene.constants.K_J == 6.5
     assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
@@ -142,7 +142,7 @@ def test_the_walk_of_a_tieline_that_is_pulled(walk):
 @pytest.mark.slow
 def test_the_walk_of_a_run_with_friction(walk):
     made, passed, rest = walk("")
-    made[LabTab].view.asked = [1, "tilt", 15.0]
+    made[LabTab].view.request = [1, "tilt", 15.0]
     rest()
     assert passed == told("A run with friction") and len({*passed}) == len(passed)
 

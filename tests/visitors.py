@@ -32,7 +32,7 @@ async def stay(page, K_J):
     """Moves a slider, and opens each panel and room."""
     dial = page.visitor.group("K_J")
     for i in range(MOVES):
-        await page.set(dial, "asked", [i + 1, "K_J", K_J + 0.05 * i, False])
+        await page.set(dial, "request", [i + 1, "K_J", K_J + 0.05 * i, False])
     await open_panels(page)
     await open_rooms(page)
 

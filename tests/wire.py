@@ -261,7 +261,7 @@ class Page:
         """Clicks something in the head of the page."""
         [head] = self.visitor.find("Head")
         self._clicks = getattr(self, "_clicks", 0) + 1
-        await self.set(head, "asked", [self._clicks, name, value])
+        await self.set(head, "request", [self._clicks, name, value])
 
     def now(self, model, attribute, default=None):
         """The present value of an attribute, as far as the server has sent it."""

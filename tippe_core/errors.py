@@ -19,8 +19,7 @@ CODES = {
     # any quantity
     "out-of-range": "outside the range that `allowed` gives as a formula",
     "not-finite": "nan, infinity, or no number at all",
-    "wrong-kind": "of another type than those that `allowed` names as Python does",
-    "other-kind": "of another type than those that the annotation of an argument names",
+    "wrong-kind": "of another type or form than those that `allowed` names as Python does",
     "many": "arrays in the place of numbers",
     "wrong-count": "too many values, or too few",
     "not-whole": "not a whole number of that range",
@@ -136,18 +135,24 @@ def finite(name: str, value: SupportsFloat) -> float:
     return number
 
 
-def single(name: str, value: Any, *kinds: type) -> Any:
-    """value, or a TopError unless it is of one of these kinds and none of its fields is an array."""
-    if not isinstance(value, kinds):
-        raise TopError(name, value, " | ".join(kind.__name__ for kind in kinds), code="wrong-kind")
-    if has_arrays(value):
-        raise TopError(name, value, "{kind} of numbers", "These are many: take one, or give all to slide_many().",
+def positive(name: str, value: SupportsFloat, zero: bool = False, unit: str = "") -> float:
+    """value as a float, or a TopError unless it is above 0, or 0 if that is allowed. unit: as in " (SI)"."""
+    number = finite(name, value)
+    if number < 0 or (number == 0 and not zero):
+        raise TopError(name, number, f"{name} {'>=' if zero else '>'} 0{unit}")
+    return number
+
+
+def single(name: str, value: Any) -> None:
+    """Raises a TopError if the value is a record that stands for many."""
+    if isinstance(value, Compared) and has_arrays(value):
+        raise TopError(name, value, "{kind} of numbers", "These are many: give one; many motions: slide_many().",
                        code="many", kind=type(value).__name__)  # fmt: skip
-    return value
 
 
-def checked(function: Function) -> Function:
-    """Decorator: an argument of another kind than its annotation names raises a TopError before anything else does."""
+def checked(function: Function, many: bool = False) -> Function:
+    """Decorator: an argument of another kind than its annotation names, or a record that stands for many, raises a
+    TopError before anything else does. many: such records are allowed."""
     names, kinds = list(inspect.signature(function).parameters), dict[str, Any]()
 
     @functools.wraps(function)
@@ -155,14 +160,22 @@ def checked(function: Function) -> Function:
         if not kinds:  # at the first call: not while the modules are imported
             kinds.update(get_type_hints(function))
         for name, value in (*zip(names, given, strict=False), *named.items()):
-            _of_kind(name, value, kinds.get(name, Any), function.__qualname__.removesuffix(".__init__"))
+            of_kind(name, value, kinds.get(name, Any))
+            if not many:
+                single(name, value)
         return function(*given, **named)
 
     return cast(Function, call)
 
 
-def _of_kind(name: str, value: Any, kind: Any, function: str) -> None:
+def checked_many(function: Function) -> Function:
+    """checked() for a function whose arguments broadcast."""
+    return checked(function, many=True)
+
+
+def of_kind(name: str, value: Any, kind: Any) -> None:
     """Raises a TopError if the value is not what an annotation takes: one of the types that it names, or numbers."""
+    kind = getattr(kind, "__bound__", None) or kind
     parts = get_args(kind) if get_origin(kind) in (Union, UnionType) else (kind,)
     types = [get_origin(part) or part for part in parts]
     if Any in types or (value is None and NoneType in types):
@@ -172,8 +185,7 @@ def _of_kind(name: str, value: Any, kind: Any, function: str) -> None:
             numbers(name, value, finite=False)
     elif all(isinstance(each, type) for each in types) and bool not in types and not isinstance(value, tuple(types)):
         raise TopError(name, value, " | ".join(each.__name__ for each in types if each is not NoneType),
-                       "help(tippe_core.{function}) says what it takes.", code="other-kind",
-                       function=function)  # fmt: skip
+                       code="wrong-kind")  # fmt: skip
 
 
 class Compared:
@@ -186,18 +198,26 @@ class Compared:
         return hash(tuple(x.tobytes() if isinstance(x, np.ndarray) else x for x in vars(self).values()))
 
 
+def read_only(*values: object) -> None:
+    """Makes those of the values that are arrays read-only."""
+    for value in values:
+        if isinstance(value, np.ndarray):
+            value.flags.writeable = False
+
+
 def has_arrays(record: Any) -> bool:
     """Whether a field of a record is an array, so that it stands for many."""
     return any(isinstance(field, np.ndarray | list | tuple) for field in vars(record).values())
 
 
-def set_arrays(name: str, record: Any) -> None:
-    """Turns the fields of a frozen record that stands for many into read-only arrays, or raises a TopError if they do
-    not broadcast together. Which of the many are possible is not checked."""
+def set_arrays(name: str, record: Any, finite: bool = False) -> None:
+    """Turns the fields of a frozen record that may stand for many into floats and read-only arrays, or raises a
+    TopError if they do not broadcast together. Which of the many are possible is not checked; finite: but all of them
+    must be finite."""
     for field, value in vars(record).items():
-        if value is not None:
-            array = numbers(field, value, finite=False)
-            array.flags.writeable = False
+        if value is not None or finite:
+            array = np.asarray(numbers(field, value, finite) + 0.0)  # -0 becomes 0
+            read_only(array)
             object.__setattr__(record, field, array if array.ndim else float(array))
     common_shape(
         name, "fields that broadcast together", *(value for value in vars(record).values() if value is not None)

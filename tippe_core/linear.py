@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import TopError, checked, finite, single
-from .motion.friction import LAWS, Friction, sticks
+from .errors import TopError, checked, finite
+from .motion.friction import Friction, sticks
 from .paper.top import Top
 from .types import Array
 
@@ -58,8 +58,6 @@ def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = F
     TopError
         for anything else, with the name, the value and the allowed range
     """
-    single("top", top, Top)
-    single("friction", friction, *LAWS)
     a, I1, I3, c, w = top.a, top.I1, top.I3, -1.0 if inverted else 1.0, finite("spin", spin)
     if sticks(friction.law, c * w):
         # F = v' = -(i omega xi' + (a - c) xi''), and c (a c - 1) = a - c
@@ -95,8 +93,6 @@ def tumbling_modes(top: Top, friction: Friction, theta: float) -> Modes:
     TopError
         if there is no such precession at that tilt
     """
-    single("top", top, Top)
-    single("friction", friction, *LAWS)
     y = tumbling(top, theta)
     omega_n = float(y[2] * np.sin(theta) + y[3] * np.cos(theta))
     holds = sticks(friction.law, omega_n)

@@ -22,15 +22,15 @@ At the poles C_J = I3 (1 - a) omega (upright) and -I3 (1 + a) Omega (inverted), 
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .errors import TopError, checked, finite, has_arrays, single
+from .errors import TopError, checked, checked_many, finite, has_arrays, read_only
 from .paper import equations as eq
 from .paper.constants import State, versines
 from .paper.top import Top
-from .types import Array, Bools, Scalars
+from .types import Array, Bools, Like, Number, Scalars
 
 
 class SteadyStates(NamedTuple):
@@ -96,7 +96,7 @@ class Thresholds:
     rise: float
 
 
-@checked
+@checked_many
 def thresholds(top: Top) -> Thresholds:
     """The spins at which the stability of spinning upright and inverted changes.
 
@@ -150,14 +150,8 @@ def _change(height: float, inertia: float) -> Change:
     return Change("always" if height + inertia > 0 else "never", np.nan)
 
 
-@overload
-def jellett_potential(theta: float, top: Top, C_J: float) -> float: ...
-@overload
-def jellett_potential(theta: Scalars, top: Top, C_J: Array) -> Array: ...
-@overload
-def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
-@checked
-def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
+@checked_many
+def jellett_potential(theta: Like, top: Top, C_J: Scalars) -> Like:
     """V_J = a(1 - c) + C_J^2/(2 I_eff).
 
     Parameters
@@ -177,7 +171,8 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
     v, m = versines(theta)
     I_eff = eq.I_eff(1 - v, v * m, top)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return top.a * v + np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
+        kinetic: Number = np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
+    return top.a * v + kinetic
 
 
 @checked
@@ -217,8 +212,7 @@ def steady_states(top: Top, C_J: float) -> SteadyStates:
     falls_before = np.array([any(between), *(between > 0)])
     rises_after = np.array([*(between < 0), any(between)])
     found = SteadyStates(np.arccos(places), falls_before & rises_after)
-    for part in found:
-        part.flags.writeable = False
+    read_only(*found)
     return found
 
 
@@ -282,8 +276,6 @@ def outcome(top: Top, state: State) -> Outcome:
     TopError
         for anything else, with the name, the value and the allowed range
     """
-    single("top", top, Top)
-    single("state", state, State)
     s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3
     C_J = eq.C_J(c, s, w2, w3, top)
     velocity_2 = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (top.a * s * w1) ** 2

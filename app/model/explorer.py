@@ -13,7 +13,7 @@ from app.model.marks import LARGEST
 from app.model.scene import LEAST_INERTIA, Scene, solve
 from app.model.setup import Setup
 from app.model.start import GIVEN, USUAL, Start, rolls
-from app.text import told
+from app.text import error_text
 from app.together import set_together
 from tippe_core import State, TopError
 
@@ -88,27 +88,27 @@ class Explorer(param.Parameterized):
 
     def _solve(self, start: Start) -> Scene:
         """The Scene of a start; the last one, with a message, if it does not give a motion."""
-        asked = start.inputs
-        K_J, K_R, share = (float(asked.get(name, USUAL[name])) for name in GIVEN["share"])
+        request = start.inputs
+        K_J, K_R, share = (float(request.get(name, USUAL[name])) for name in GIVEN["share"])
         try:
             scene = solve(start.top, K_J, K_R, start.static, share, start.upper, start.limit, start.shape,
-                          E=asked.get("E"), state=State(*start.motion) if start.given == "state" else None,
+                          E=request.get("E"), state=State(*start.motion) if start.given == "state" else None,
                           let_go=start.let_go)  # fmt: skip
         except TopError as error:
             if self.scene is None:
                 raise
             control = {"E": "energy"}.get(error.name, error.name)
-            asked = {**self.scene.inputs, **asked, "mu_s": start.static}
-            asked = {name: asked[name] for name in self.scene.inputs}
-            near = _nearest(error, asked)
+            request = {**self.scene.inputs, **request, "mu_s": start.static}
+            request = {name: request[name] for name in self.scene.inputs}
+            near = _nearest(error, request)
             return replace(
-                self.scene, inputs=MappingProxyType(asked), messages=MappingProxyType({control: told(error)}),
+                self.scene, inputs=MappingProxyType(request), messages=MappingProxyType({control: error_text(error)}),
                 nearest=MappingProxyType({} if near is None else {control: near}))  # fmt: skip
         motion = dict(zip(GIVEN[start.given], start.motion, strict=True))
         return replace(scene, inputs=MappingProxyType({**scene.inputs, "given": start.given, **motion}))
 
 
-def _nearest(error: TopError, asked: dict[str, Any]) -> float | None:
+def _nearest(error: TopError, request: dict[str, Any]) -> float | None:
     """The possible value that is nearest to the one at fault, with the other inputs as they were asked for; None if
     another input was asked for."""
     name, value = error.name, error.value
@@ -116,10 +116,10 @@ def _nearest(error: TopError, asked: dict[str, Any]) -> float | None:
         least = error.numbers.get("least")  # rounded to six digits, so the next one is surely possible
         return None if least is None else float(f"{least + 10.0 ** (floor(log10(abs(least))) - 5):.6g}")
     least, most = {
-        "a": (-LARGEST, 0.999), "I1": (max(asked["I3"] / 2, LEAST_INERTIA), LARGEST),
-        "I3": (LEAST_INERTIA, min(2 * asked["I1"], LARGEST)), "mu_s": (0.0, LARGEST), "theta": (0.001, 3.1415),
+        "a": (-LARGEST, 0.999), "I1": (max(request["I3"] / 2, LEAST_INERTIA), LARGEST),
+        "I3": (LEAST_INERTIA, min(2 * request["I1"], LARGEST)), "mu_s": (0.0, LARGEST), "theta": (0.001, 3.1415),
     }.get(name, (nan, nan))  # fmt: skip
-    if value != asked.get(name) or not least <= most:
+    if value != request.get(name) or not least <= most:
         return None
     return float(min(max(value, least), most))
 

@@ -52,10 +52,10 @@ class Pool:
     and goes on in its turn."""
 
     def __init__(
-        self, threads: int, name: str, most: int = 400, begin: Piece | None = None, *, unasked: bool = False,
+        self, threads: int, name: str, most: int = 400, begin: Piece | None = None, *, unrequested: bool = False,
         slice: float = math.inf,
     ) -> None:  # fmt: skip
-        self.threads, self.most, self.unasked, self.slice = threads, most, unasked, slice
+        self.threads, self.most, self.unrequested, self.slice = threads, most, unrequested, slice
         kept = threads if slice == math.inf else threads + most  # a piece that gives way keeps its thread
         self._executor = ThreadPoolExecutor(kept, thread_name_prefix=name, initializer=begin)
         self._resuming: set[Piece] = set()  # those that wait to go on
@@ -77,7 +77,7 @@ class Pool:
             self._waiting.setdefault(visitor, []).append(piece)
             self._since[piece] = time.monotonic()
             self._fill()
-            if piece in self._since and not self.unasked:
+            if piece in self._since and not self.unrequested:
                 self._places[visitor] = place
                 self._tell_later()
 
@@ -189,7 +189,7 @@ def _logged(future: Future[None]) -> None:
 # With all threads busy a visitor waits, and sees that nothing is computed yet.
 WORK = Pool(max(2, min(cores() + 1, 4)), "run")
 # The rest of a run, for example, which is computed when a hand rests, gives way to what hands wait for.
-LATER = Pool(2, "later", begin=stand_back, unasked=True)
+LATER = Pool(2, "later", begin=stand_back, unrequested=True)
 FILES = Pool(1, "file", 100)  # matplotlib draws one figure at a time
 # A map takes all cores; with more threads all maps would only be later. A short one overtakes a long one.
 MAPS = Pool(2, "map", 40, stand_back, slice=1.0)

@@ -20,7 +20,7 @@ from app.model.phases import Phase, carried, phases, samples
 from app.model.pushes import in_pieces
 from app.model.regimes import ENDS, GLIDES, OF_CORE, SLIPS, WOULD_LIFT
 from app.model.setup import SECONDS, Push, Setup, start_of
-from app.text import say, told
+from app.text import error_text, say
 from tippe_core import (
     Coulomb,
     Ending,
@@ -273,7 +273,7 @@ def _gripped(top: Top, state: State) -> State:
 
 def why_not(error: TopError) -> str:
     """Why a start has no run on a table, in a sentence."""
-    return say("planes.run.extreme") if error.code == EXTREME else told(error)
+    return say("planes.run.extreme") if error.code == EXTREME else error_text(error)
 
 
 def watched(start: Setup, table: str, found: Lived, lost: float = 0.0, *, whole: bool) -> TableMotion:

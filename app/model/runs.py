@@ -211,7 +211,7 @@ class Runs:
         except Full as full:
             waiting = full.args[0]
             tell(full)
-            if not pool.unasked:
+            if not pool.unrequested:
                 self.post(lambda: self._full(waiting))
 
     def post(self, function: Piece) -> None:

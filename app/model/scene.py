@@ -203,8 +203,8 @@ def solve(
         state = State(theta, w1, w2 if 0 < theta < np.pi else 0.0, w3)
     whole = plane(top, K_R, mu_s, upper, limit, *K_J_range(top, K_J, K_R, upper))
     turns = float(turning[0]), float(turning[1])
-    asked = {"mu_s": mu_s, "upper": upper, "limit": limit, "shape": shape}
-    return _scene(asked, lost, constants, share, marks, state, rolling, whole, turns, trajectory)
+    request = {"mu_s": mu_s, "upper": upper, "limit": limit, "shape": shape}
+    return _scene(request, lost, constants, share, marks, state, rolling, whole, turns, trajectory)
 
 
 def _check_sizes(top: Top, numbers: dict[str, float]) -> None:
@@ -219,18 +219,18 @@ def _check_sizes(top: Top, numbers: dict[str, float]) -> None:
 
 
 def _scene(
-    asked: dict[str, Any], lost: float, constants: Constants, share: float, marks: Marks, state: State,
+    request: dict[str, Any], lost: float, constants: Constants, share: float, marks: Marks, state: State,
     rolling: Rolling, whole: Plane, turning: tuple[float, float], trajectory: Trajectory,
 ) -> Scene:  # fmt: skip
     """The Scene of a solution, with everything that is shown."""
-    top, shape, mu_s = rolling.top, asked["shape"], asked["mu_s"]
+    top, shape, mu_s = rolling.top, request["shape"], request["mu_s"]
     drawn = shape if fits(shape, top) else None
     F_x, F_y, F_z = trajectory.force.T
     with np.errstate(divide="ignore"):
         ratio = np.hypot(F_x, F_y) / np.abs(F_z)
     force, omega, momentum = in_space(trajectory)
     theta = between(*turning, MESH_COLUMNS)
-    inputs = asked | {"K_J": constants.K_J, "K_R": constants.K_R, "energy": share, "E": constants.E}
+    inputs = request | {"K_J": constants.K_J, "K_R": constants.K_R, "energy": share, "E": constants.E}
     inputs |= {name: getattr(state, name) for name in STATE} | {name: getattr(top, name) for name in TOP}
     turns = float(state.omega3 * shape.scales.angular_velocity / (2 * np.pi))
     inputs |= {"spin": turns, "tilt": float(np.degrees(state.theta)), "slip": 1.0}

@@ -21,18 +21,18 @@ def of_all(motions: Mapping[str, TableMotion]) -> tuple[str, str]:
     over = "ordinary" in motions and "over" in first_times(motions["ordinary"])
     pushes = [push for motion in motions.values() for push, *_ in motion.pushes]
     turned = over and not pushes and len(quiet) == 2 and all(motion.tilt.max() < SIDE for motion in quiet.values())
-    said = [say("lab.three.why")]
+    wording = [say("lab.three.why")]
     if pushes:
-        said.append(say("lab.three.pushed", time=pushes[-1].t, size=size_words(pushes[-1])))
+        wording.append(say("lab.three.pushed", time=pushes[-1].t, size=size_words(pushes[-1])))
     elif "rough" in quiet:
         first = quiet["rough"].curves[0]
         lost, start = float(first[4]), float(first[3] + first[4])
-        said.append(say(f"lab.three.{'grip' if lost > SMALL * start else 'keep'}", lost=lost, start=start))
+        wording.append(say(f"lab.three.{'grip' if lost > SMALL * start else 'keep'}", lost=lost, start=start))
     if len(quiet) == 2:
         ends: dict[str, Number] = {f"{name}_{end}": float(getattr(motion.tilt, of)()) for name, motion in quiet.items()
                 for end, of in (("low", "min"), ("high", "max"))}  # fmt: skip
         near = all(np.ptp(motion.tilt) < NEAR for motion in quiet.values())
         ends |= {f"{name}_by": ceil(10 * float(np.abs(motion.tilt - motion.tilt[0]).max()) or 1) / 10
                  for name, motion in quiet.items()}  # fmt: skip
-        said.append(say(f"lab.three.{'near' if near else 'far'}", **ends))
-    return say(f"lab.three.{'turned' if turned else 'headline'}"), " ".join(said)
+        wording.append(say(f"lab.three.{'near' if near else 'far'}", **ends))
+    return say(f"lab.three.{'turned' if turned else 'headline'}"), " ".join(wording)

@@ -69,8 +69,8 @@ class Start:
     @property
     def inputs(self) -> dict[str, Any]:
         """{input: value}, enough to set it again."""
-        said = {name: value for name, value in vars(self).items() if name != "motion"}
-        return said | dict(zip(GIVEN[self.given], self.motion, strict=True))
+        fields = {name: value for name, value in vars(self).items() if name != "motion"}
+        return fields | dict(zip(GIVEN[self.given], self.motion, strict=True))
 
     @property
     def put_back(self) -> dict[str, Any]:

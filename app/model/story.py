@@ -96,13 +96,13 @@ class _Told:
         stage = first = self._stage(i, phase)
         for push, _, gain in self._pushes(phase):
             height = 1e3 * self.motion.start.scales.R * gain
-            said = say("lab.pushed.told", time=push.t, size=size_words(push))
+            wording = say("lab.pushed.told", time=push.t, size=size_words(push))
             if abs(height) >= SAID:
-                said += " " + say(f"lab.pushed.{'gave' if height > 0 else 'took'}", energy=abs(height))
+                wording += " " + say(f"lab.pushed.{'gave' if height > 0 else 'took'}", energy=abs(height))
             if push.t > phase.start:
                 yield stage
                 stage = stage._replace(t=push.t)
-            stage = stage._replace(why=f"{said} {first.why}".strip())
+            stage = stage._replace(why=f"{wording} {first.why}".strip())
         yield stage
 
     def _pushes(self, phase: Phase) -> list[tuple[Push, int, float]]:
@@ -171,38 +171,38 @@ class _Told:
 
     def _whys(self, i: int, phase: Phase, code: str, numbers: dict[str, Number]) -> list[str]:
         """The sentences about a phase itself."""
-        said = []
+        wording = []
         if self.quiet and i == 0 and not (self.table == "ice" and self.motion.pushes):
-            said.append(say(f"lab.{self.table}.why"))
+            wording.append(say(f"lab.{self.table}.why"))
         if code == "grips":
             steady = f"{numbers['least']:.1f}" == f"{numbers['most']:.1f}"
             how = "steady" if steady else "why" if self._turns(phase) >= BACK else "passes"
-            said.append(say(f"lab.stages.grips.{how}", **numbers))
+            wording.append(say(f"lab.stages.grips.{how}", **numbers))
         elif code in ("stem-spins", "inverted-spins", "stem-balances", "inverted-balances"):
-            said.append(self._why_it_stands(i, phase))
+            wording.append(self._why_it_stands(i, phase))
         elif code == "upright" and not self.quiet:
             rolls = self.motion.rolls_since
             held = rolls < phase.end  # what holds it is no friction of what slips
-            said.append(say("lab.next.rolls", time=rolls) if held else self._why_upright(i, numbers))
+            wording.append(say("lab.next.rolls", time=rolls) if held else self._why_upright(i, numbers))
         elif code == "rocks":
             never = self._stays_low and self.a > 0
-            said.append(say(f"lab.stages.rocks.{'why' if never else 'past'}", **numbers))
+            wording.append(say(f"lab.stages.rocks.{'why' if never else 'past'}", **numbers))
         elif code == "falls":
-            said.append(self._why_it_falls(i, phase, numbers))
+            wording.append(self._why_it_falls(i, phase, numbers))
         elif code == "back":
-            said.append(say(f"lab.stages.back.{'why' if self.motion.start.edge else 'ball'}", **numbers))
+            wording.append(say(f"lab.stages.back.{'why' if self.motion.start.edge else 'ball'}", **numbers))
         elif code == "leans" and not self.quiet:
-            said.append(self._within(numbers))
+            wording.append(self._within(numbers))
             if not self.motion.pushes:
-                said.append(say("lab.stages.leans.energy", **numbers))
+                wording.append(say("lab.stages.leans.energy", **numbers))
         elif code in ("leans", "rests", "upright"):
-            said.append(self._within(numbers))
+            wording.append(self._within(numbers))
         else:
-            said.append(say(f"lab.stages.{code}.why", **numbers))
+            wording.append(say(f"lab.stages.{code}.why", **numbers))
         slower = numbers["last"] < (1 - SAME) * numbers["spin"] and round(numbers["last"]) < round(numbers["spin"])
         if code in ("swings", "nods") and slower and not self.quiet and not self._pushes(phase):
-            said.append(say("lab.stages.swings.spin", **numbers))
-        return [*said, *self._of_table(i, numbers)]
+            wording.append(say("lab.stages.swings.spin", **numbers))
+        return [*wording, *self._of_table(i, numbers)]
 
     @staticmethod
     def _within(numbers: dict[str, Number]) -> str:
@@ -220,7 +220,7 @@ class _Told:
     def _why_upright(self, i: int, numbers: dict[str, Number]) -> str:
         """What holds it: its low weight, or its spin; or that nothing does for ever."""
         rose = "rises" in self.kinds[:i] and not self.motion.pushes
-        said = [say("lab.stages.upright.rubbed")] if rose and self.a < 0 else []
+        wording = [say("lab.stages.upright.rubbed")] if rose and self.a < 0 else []
         change = thresholds(self.motion.start.top).upright
         spin, needed = numbers["spin"], float(np.nan_to_num(change.spin)) * self.turns
         stable = change.stable == "always" or (change.stable == "above") == (spin > needed)
@@ -229,10 +229,10 @@ class _Told:
             return say("lab.stages.upright.exact")
         if self.a > 0:
             low = "always" if change.stable == "always" else "low" if stable else "unstable"
-            said.append(say(f"lab.stages.upright.{low}", needed=needed, **numbers))
+            wording.append(say(f"lab.stages.upright.{low}", needed=needed, **numbers))
         elif self.a < 0:
-            said.append(say(f"lab.stages.upright.{'spin' if stable else 'slow'}", needed=needed, **numbers))
-        return " ".join(said)
+            wording.append(say(f"lab.stages.upright.{'spin' if stable else 'slow'}", needed=needed, **numbers))
+        return " ".join(wording)
 
     def _why_it_falls(self, i: int, phase: Phase, numbers: dict[str, Number]) -> str:
         """Too little spin is the reason where it stood with more, or where it needs more to stand."""
@@ -254,12 +254,12 @@ class _Told:
         motion = self.motion
         if i or motion.table != "rough":
             return []
-        said = []
+        wording = []
         if motion.curves[0, 4] > TENTH[0] and not motion.pushes:
-            said.append(say("lab.rough.gripped", start=numbers["start"], lost=float(motion.curves[0, 4])))
+            wording.append(say("lab.rough.gripped", start=numbers["start"], lost=float(motion.curves[0, 4])))
         if any(which == WOULD_LIFT for *_, which in motion.stretches):
-            said.append(say("lab.rough.lifts"))
-        return said
+            wording.append(say("lab.rough.lifts"))
+        return wording
 
     def _afterwards(self, i: int, phase: Phase, numbers: dict[str, Number]) -> list[str]:
         """What comes after a phase: the next one, the end of the run, or that it goes on like this."""

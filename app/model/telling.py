@@ -26,7 +26,7 @@ def told(scene: LabScene) -> dict[str, Any]:
     """
     tables = {name: _table(motion) for name, motion in scene.motions.items() if motion}
     none = {name: {"refused": why} | EMPTY for name, why in scene.refused.items()}
-    return {"said": list(scene.said), "tables": none | tables}
+    return {"wording": list(scene.wording), "tables": none | tables}
 
 
 MOST_DIGITS = 5
@@ -66,8 +66,8 @@ def _kept(motion: TableMotion) -> dict[str, Any]:
         while digits < MOST_DIGITS and kind != "kept" and f"{first:.{digits}f}" == f"{last:.{digits}f}":
             digits += 1
         numbers = {key: written(value, f".{digits}f") for key, value in (("first", first), ("last", last))}
-        said = f"{words[kind]}: {form.format(**numbers, unit=words['units'][list(KEPT).index(name)])}"
-        found[name] = {"kind": kind, "first": first, "last": last, "said": said}
+        wording = f"{words[kind]}: {form.format(**numbers, unit=words['units'][list(KEPT).index(name)])}"
+        found[name] = {"kind": kind, "first": first, "last": last, "wording": wording}
     if turning := while_it_turns(motion):
         time, before, then = turning
         found["jellett"]["turning"] = say("lab.kept.jellett", time=time, first=before, last=then)

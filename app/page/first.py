@@ -81,9 +81,9 @@ def searches():
     found = {}
     for tab in ({}, {names.TAB: room.FIRST}):
         for language in ("", *LANGUAGES):
-            asked = tab | ({names.LANGUAGE: language} if language else {})
+            request = tab | ({names.LANGUAGE: language} if language else {})
             versions = ({}, {names.VERSION_NAME: str(names.VERSION)})
-            found |= {names.query(more | asked) if more | asked else "": language for more in versions}
+            found |= {names.query(more | request) if more | request else "": language for more in versions}
     return found
 
 

@@ -46,9 +46,9 @@ class PageLanguage(param.Parameterized):
 
 def page():
     search = pn.state.location.search
-    asked = read(search)[0].get(LANGUAGE)
+    request = read(search)[0].get(LANGUAGE)
     accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
-    SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
+    SPEAKS[pn.state.curdoc] = request if request in text.LANGUAGES else accepted
     texts, sentence = read(search)  # in this language
     failed = failure()
     look = Look(width=0, height=0, margin=0)

@@ -30,9 +30,9 @@ from app.model.setup import TABLES, TOYS
 from app.page.first import CURVE, FRAME, POSE, written
 from app.state.url_state import explorer_of, read
 from app.tabs.lab.lab import SLIDERS, LabTab
-from app.tabs.learn.lesson import LessonView, runs_of, said
+from app.tabs.learn.lesson import LessonView, runs_of, state_of
 from app.tabs.learn.worksheet import worksheet
-from app.text import LANGUAGES, listed, say, speaking, spoken, told
+from app.text import LANGUAGES, error_text, listed, say, speaking, spoken
 from app.text import written as figure
 from app.widgets import choices
 from app.widgets.head import Head
@@ -93,10 +93,10 @@ def mailed(link, look, below="", **more):
     explorer, _ = explorer_of(texts)
     lab, table = Lab(WithoutEnds(), explorer), explorer.table
     lab.show()
-    said, view = _tables(lab, {})
+    told, view = _tables(lab, {})
     toy, known = choices.tops(explorer.toy)
     state = head(toy, dict(known)[toy]) | {"tabs": [], "languages": [[spoken(), LANGUAGES[spoken()]]]}
-    words = spoken_words(view, {"": said}, state) | {"about": say("share.letter.source")}
+    words = spoken_words(view, {"": told}, state) | {"about": say("share.letter.source")}
     says = words["lab"]["texts"]  # without the way to the lesson
     words["lab"] |= look | {"texts": says | {"whys": {}, "more": says["more"] | {"caught": ""}}}
     found = {"languages": {spoken(): spoken()}, "grid": {}, "first": {}, "table": table,
@@ -118,7 +118,7 @@ def _notices():
 def _tables(lab, grid, **start):
     """({table: [state, told]} of a start on each table and on all three, the view of all three)."""
     views = {table: shown(lab, grid, table=table, **start) for table in (*TABLES, "three")}
-    return {table: [state, said] for table, (state, said, _) in views.items()}, views["three"][-1]
+    return {table: [state, told] for table, (state, told, _) in views.items()}, views["three"][-1]
 
 
 def _numbers(view):
@@ -173,12 +173,12 @@ def shown(lab, grid, **inputs):
     if refused := lab.scene.messages:
         raise ValueError(" ".join(refused.values()))
     view = LabTab(lab, None).view
-    state, said = json.loads(view.state), json.loads(view.told)
+    state, told = json.loads(view.state), json.loads(view.told)
     spins = grid.get("spin", [0.0])  # without them, none of the ends is shown
     ends = [[max(low, min(spins)), min(high, max(spins)), *what] for low, high, *what in state["ends"] or ()
             if high > min(spins) and low < max(spins)]  # fmt: skip
     sliders = {name: slider(values, SLIDERS[name]) for name, values in grid.items() if len(values) > 1}
-    return state | {"sliders": sliders, "dims": [], "ends": ends}, said | {"rubs": []}, view
+    return state | {"sliders": sliders, "dims": [], "ends": ends}, told | {"rubs": []}, view
 
 
 def slider(values, known):
@@ -195,7 +195,7 @@ def spoken_words(view, words, state):
     lab["texts"] |= {"nexts": {name: word for name, word in lab["texts"]["nexts"].items() if name != "research"}}
     lab["texts"] |= {"lets_go": "", "flick_hint": ""}  # a push is a run that is not stored
     return {
-        "head": {"texts": Head.says() | dict.fromkeys(("tour", "keys", "statement"), ""), "asked": [],
+        "head": {"texts": Head.says() | dict.fromkeys(("tour", "keys", "statement"), ""), "request": [],
                  "state": state},
         "lab": lab, "told": words, "near": listed("site.near"), "no_number": listed("lab.inputs.no_number"),
     }  # fmt: skip
@@ -205,8 +205,8 @@ def lesson(scene):
     """The lesson in the language of the page, without what is for teachers."""
     texts = LessonView.says()
     texts |= {"lesson": texts["lesson"] | {"sections": {}, "open": ""}}
-    steps = [said(step, scene) for step in LESSON]
-    return {"texts": texts, "steps": steps, "worksheet": worksheet(scene), "asked": []}
+    steps = [state_of(step, scene) for step in LESSON]
+    return {"texts": texts, "steps": steps, "worksheet": worksheet(scene), "request": []}
 
 
 def head(toy, name):
@@ -226,12 +226,12 @@ def main(arguments):
         usual = " ".join(f"{value:g}" for value in GRID[name])
         parser.add_argument(f"--{option}", dest=name, type=float, nargs="+", default=GRID[name],
                             help=f"{says} (default: {usual})")  # fmt: skip
-    asked = vars(parser.parse_args(arguments))
-    grid = {name: sorted(set(asked[name])) for name in GRID}
+    request = vars(parser.parse_args(arguments))
+    grid = {name: sorted(set(request[name])) for name in GRID}
     try:
-        size = site(asked["folder"], asked["toy"], grid, lambda *places: print(*places, sep="/", file=sys.stderr))
+        size = site(request["folder"], request["toy"], grid, lambda *places: print(*places, sep="/", file=sys.stderr))
     except (ValueError, OSError) as error:
-        print(told(error) if isinstance(error, TopError) else error, file=sys.stderr)
+        print(error_text(error) if isinstance(error, TopError) else error, file=sys.stderr)
         return 2
-    print(f"{asked['folder']}: {size / 1e6:.1f} MB")
+    print(f"{request['folder']}: {size / 1e6:.1f} MB")
     return 0

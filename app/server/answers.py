@@ -144,8 +144,8 @@ class Handler(Answer, RequestHandler):
     @property
     def language(self):
         """The language in the address, else the one that the browser prefers."""
-        asked = self.request.query_arguments.get(LANGUAGE, [b""])[-1].decode(errors="replace")
-        return asked if asked in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
+        request = self.request.query_arguments.get(LANGUAGE, [b""])[-1].decode(errors="replace")
+        return request if request in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
 
     def words(self, name):
         return text.say(f"main.server.{name}", self.language)

@@ -42,7 +42,7 @@ class Seldom(logging.Filter):
     def __init__(self):
         super().__init__()
         self.errors = 0
-        self._said = {}  # (address, reason) -> (when it was let through, how often it was not since)
+        self._passed = {}  # (address, reason) -> (when it was let through, how often it was not since)
 
     def filter(self, record):
         self.errors += record.levelno >= logging.ERROR
@@ -50,13 +50,15 @@ class Seldom(logging.Filter):
         if of is None:
             return True
         now = time.monotonic()
-        when, held = self._said.get(of, (-AGAIN, 0))
+        when, held = self._passed.get(of, (-AGAIN, 0))
         if now - when < AGAIN:
-            self._said[of] = when, held + 1
+            self._passed[of] = when, held + 1
             return False
-        if len(self._said) > MOST:
-            self._said = {each: said for each, said in self._said.items() if now - said[0] < AGAIN and each != of}
-        self._said[of] = now, 0
+        if len(self._passed) > MOST:
+            self._passed = {
+                each: entry for each, entry in self._passed.items() if now - entry[0] < AGAIN and each != of
+            }
+        self._passed[of] = now, 0
         if held:
             record.msg, record.args = f"{record.getMessage()} ({held} more like this before)", ()
         return True
@@ -85,12 +87,12 @@ class Line(logging.Formatter):
         if not self._json:
             return line
         when = self.formatTime(record, "%Y-%m-%dT%H:%M:%S%z")
-        said = {"time": when, "level": record.levelname, "host": platform.node(), "process": record.process,
+        entry = {"time": when, "level": record.levelname, "host": platform.node(), "process": record.process,
                 "logger": record.name, "message": message}  # fmt: skip
         if record.exc_info:
             trace = self.formatException(record.exc_info)
-            said["trace"] = trace if self._addresses else without_addresses(trace)
-        return json.dumps(said, ensure_ascii=False)
+            entry["trace"] = trace if self._addresses else without_addresses(trace)
+        return json.dumps(entry, ensure_ascii=False)
 
 
 def begin(settings):

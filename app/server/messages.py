@@ -172,12 +172,12 @@ CHANGES = {
                      "piece": row(text(200_000), COUNT, COUNT, COUNT, SHORT, COUNT)},
     "Field": {"value": text(60)},
     "Menu": {"value": CHOSEN},
-    "LessonView": {"asked": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
-    "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
-    "LabView": PICTURE | {"asked": row(COUNT, SHORT, NUMBER | SHORT | FLAG)
+    "LessonView": {"request": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
+    "Head": {"request": row(COUNT, SHORT, FLAG | SHORT)},
+    "LabView": PICTURE | {"request": row(COUNT, SHORT, NUMBER | SHORT | FLAG)
                           | row(COUNT, one_of("pushes"), text(Pushes.LONGEST))},
     "Look": {"dark": FLAG, "large": FLAG},
-    "NumberControls": {"asked": row(COUNT, SHORT, NUMBER | SHORT, FLAG)},
+    "NumberControls": {"request": row(COUNT, SHORT, NUMBER | SHORT, FLAG)},
     "Painted": {"painted": COUNT},
     "PlaneView": {"hand": row(one_of("tieline", "line", "end", "point"), ANGLE, SIZE), "pressed": row(COUNT, SHORT)},
     "Phone": {"mark": text(32)},

@@ -77,8 +77,8 @@ def header(scene, link=""):
 
 def _unit_line(name, scales):
     what, unit, scale, si = UNITS[name]
-    said = f", in {unit}" * bool(unit) + (f" = {getattr(scales, scale):.6g} {si}" if scale else "")
-    return f"{name}: {what}{said}"
+    unit_text = f", in {unit}" * bool(unit) + (f" = {getattr(scales, scale):.6g} {si}" if scale else "")
+    return f"{name}: {what}{unit_text}"
 
 
 def motion_csv(scene, link=""):
@@ -118,12 +118,12 @@ def csv(lines, columns):
 
 def arrays_npz(scene, link=""):
     """Motion and tielines as NPZ (bytes); `header`, a string, is JSON with the parameters, the units and the link."""
-    said = {
+    fields = {
         "about": header(scene)[0],
         "link": link,
         "parameters": {name: {"value": value, "unit": unit} for name, (value, unit) in parameters(scene).items()},
         "units": {name: _unit_line(name, scene.scales) for name in UNITS} | TIELINES,
     }
     file = io.BytesIO()
-    np.savez_compressed(file, header=np.array(json.dumps(said)), **motion_table(scene), **tieline_table(scene))
+    np.savez_compressed(file, header=np.array(json.dumps(fields)), **motion_table(scene), **tieline_table(scene))
     return file.getvalue()

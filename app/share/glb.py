@@ -15,7 +15,7 @@ OVER = 1.006  # R from O: so that the ball does not hide the trace
 PAINT = ((0.72, 0.45, 0.20), (0.95, 0.90, 0.80))  # wood, in two tones, so that the rotation is visible
 
 
-def animation_glb(scene, slower=16.0, said=None, name="rolling"):
+def animation_glb(scene, slower=16.0, described=None, name="rolling"):
     """The trajectory as a glTF 2.0 binary (bytes): the body with the trace on it, its track and the table, in m, y
     up.
 
@@ -23,7 +23,7 @@ def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     Scene, or an object with the same attributes, such as saved_runs.Shown; said: its parameters; name: that of the
     animation. The keyframes are the frames of the scene; the body's origin is O, which is a above G along the axis.
     """
-    R, motion, said = scene.scales.R, scene.trajectory, said or parameters(scene)
+    R, motion, described = scene.scales.R, scene.trajectory, described or parameters(scene)
     file = _Gltf()
     points, normals, colours, corners = _revolved(scene.profile * R)
     body = file.mesh("the top", points, normals, colours, corners)
@@ -43,7 +43,7 @@ def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     # physics has z up, glTF has y up
     upright = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
     written = {key: f"{value if isinstance(value, str) else repr(value)} {unit}".rstrip()
-               for key, (value, unit) in said.items()}  # fmt: skip
+               for key, (value, unit) in described.items()}  # fmt: skip
     extras = {"slower than the real top by": slower, "parameters": written}
     document = {
         "asset": {"version": "2.0", "generator": "Tippe top explorer", "extras": extras},

@@ -72,14 +72,14 @@ def figures(scene):
         portraits=pictures,
         unit=say("planes.keys.time"),
         this=say("share.letter.motion"),
-        parameters=f"{', '.join(_said(scene))}. {say('share.letter.bokeh')}",
+        parameters=f"{', '.join(_described(scene))}. {say('share.letter.bokeh')}",
         bokeh=f"<script>{(settings.bokehjs_path() / 'js' / 'bokeh.min.js').read_text(encoding='utf-8')}</script>",
         figures=script,
     )
     return page, {type(part).__name__: values_of(part) for part in (plane, surface)}
 
 
-def _said(scene):
+def _described(scene):
     known = parameters(scene)
     tilts = {"theta_inner": say("share.letter.least"), "theta_outer": say("share.letter.largest")}
     for name, (symbol, unit) in TYPESET.items():

@@ -69,8 +69,8 @@ class Files:
                               filename="tippe-top.stl", margin=0)  # fmt: skip
         rows = {name: [self._saves[kind] for kind in kinds] for name, kinds in ROWS.items()}
         rows["solid"].append(self._mesh)
-        said = {name: _says(_titled(name)) for name in ("photo", *ROWS, "letter", "sheet")}
-        self._solid = said["solid"]
+        wording = {name: _says(_titled(name)) for name in ("photo", *ROWS, "letter", "sheet")}
+        self._solid = wording["solid"]
         mailed = self._of_scene(NAMES["html"], "tippe-top.html", mail)
         self._sheet, self._paper = sheet, Paper(margin=0, label=say("share.panel.print"))
         rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [self._paper]}
@@ -80,8 +80,8 @@ class Files:
         self._more = Fold(say("share.panel.figures"), figures, margin=(8, 0))
         self.view = [
             self._of, self._table,
-            _row(said["photo"], *rows.pop("photo")), _row(self._film),
-            *(_row(said[name], *saves) for name, saves in rows.items()),
+            _row(wording["photo"], *rows.pop("photo")), _row(self._film),
+            *(_row(wording[name], *saves) for name, saves in rows.items()),
             _row(self._embed), self._more,
         ]  # fmt: skip
 
@@ -133,10 +133,10 @@ class Files:
     def _name(self):
         """The caption that says which motion the files contain, and their names."""
         table = self._table.value if self._shown else ""
-        said = (
+        wording = (
             say("share.panel.of_table", table=say(f"share.tables.{table}")) if table else say("share.panel.of_rolling")
         )
-        self._of.object = f"<b>{said}</b>"
+        self._of.object = f"<b>{wording}</b>"
         for kind, save in self._saves.items():
             save.filename = f"tippe-top-{table or 'motion'}.{kind}"
 

@@ -29,7 +29,7 @@ class ShareHead(Bundled):
 
     link = param.String(default="", doc="the address of what is shown")
     picture = param.String(default="", doc="its QR code as an SVG; empty if the link is too long")
-    said = param.List(default=[], doc="sentences about it")
+    wording = param.List(default=[], doc="sentences about it")
     opened = param.Integer(default=0, doc="how often it was opened")
     closed = param.Integer(default=0, doc="how often it was closed; the browser writes it")
 

@@ -92,10 +92,10 @@ def run_csv(shown, link=""):
 
 def run_npz(shown, link=""):
     """A run as NPZ (bytes); `header`, a string, is JSON with the parameters, the units and the link."""
-    said = {"parameters": {name: list(pair) for name, pair in shown.parameters.items()}, "link": link,
+    header = {"parameters": {name: list(pair) for name, pair in shown.parameters.items()}, "link": link,
             "units": {name: f"{what} ({unit})" for name, (what, unit, _) in UNITS.items()}}  # fmt: skip
     file = io.BytesIO()
-    np.savez_compressed(file, header=np.array(json.dumps(said)), regime=shown.trajectory.regime, **columns(shown))
+    np.savez_compressed(file, header=np.array(json.dumps(header)), regime=shown.trajectory.regime, **columns(shown))
     return file.getvalue()
 
 
@@ -126,8 +126,8 @@ def drawn(shown):
     rows = {name: CubicSpline(t, values[:count])(smooth) for name, values in rows.items()}
     # the rate of the tilt is in each frame, omega_1
     rows[next(iter(rows))] = np.degrees(CubicHermiteSpline(t, moved.theta[:count], moved.omega[:count, 0])(smooth))
-    said = say("share.first", first=seconds[count - 1], whole=seconds[-1])
-    return smooth * shown.setup.scales.time, rows, (words[0], words[1] + said)
+    wording = say("share.first", first=seconds[count - 1], whole=seconds[-1])
+    return smooth * shown.setup.scales.time, rows, (words[0], words[1] + wording)
 
 
 def _first_nods(shown):

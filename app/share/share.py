@@ -133,12 +133,12 @@ class Share(param.Parameterized):
         if link != self._head.link:
             picture = _code(link)
         at = None if self._playing.playing else self._playing.time * self._scene.scales.time
-        said = [
+        wording = [
             say("share.panel.opens") if at is None or not self._rolls() else say("share.panel.opens_at", time=at),
             "" if picture else say("share.panel.too_long", letters=len(link)),
             say("share.panel.local") if is_local(urlsplit(link).hostname or "") else "",
         ]
-        self._head.param.update(link=link, picture=picture, said=[each for each in said if each])
+        self._head.param.update(link=link, picture=picture, wording=[each for each in wording if each])
         if not self._busy():  # else the files are still those of the previous motion, with its own link
             self._files.show(self._scene, {shown.table: shown for shown in self._shown()}, link)
             self._saves.visible = True

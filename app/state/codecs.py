@@ -12,7 +12,7 @@ from itertools import pairwise
 from app.model.measured import film
 from app.model.setup import MOST_SECONDS, Push
 from app.model.votes.classroom import KEY
-from app.state import asked
+from app.state import validate
 from app.text import say
 from tippe_core import load_top, save_top
 from tippe_core.bodies.files import LONGEST, given, names_of
@@ -65,7 +65,7 @@ class Numbers:
     @staticmethod
     def text(value):
         """The text of finite numbers."""
-        return "_".join(map(Number.text, map(asked.number, value)))
+        return "_".join(map(Number.text, map(validate.number, value)))
 
     def value(self, text):
         """The numbers in a text; else raises ValueError."""
@@ -86,7 +86,7 @@ class OneOf:
         for word, known in self._words.items():
             if known == value:
                 return word
-        raise asked.Unasked(f"not one of {', '.join(self._words)}")
+        raise validate.InvalidMessage(f"not one of {', '.join(self._words)}")
 
     def value(self, text):
         """The value of a word; else raises ValueError."""

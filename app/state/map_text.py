@@ -11,15 +11,15 @@ class MapText:
     quantity."""
 
     @staticmethod
-    def text(asked):
+    def text(request):
         """The text of any Map. The page's own top is elsewhere in the address; here it is 0."""
-        numbers = (asked.seconds, float(asked.cells))
+        numbers = (request.seconds, float(request.cells))
         names = [preset.name for preset in PRESETS]
-        body = names.index(asked.body) + 1 if asked.body in names else 0
-        parts = [asked.across, *map(Number.text, asked.across_range),
-                 asked.up, *map(Number.text, asked.up_range), asked.law, str(body),
+        body = names.index(request.body) + 1 if request.body in names else 0
+        parts = [request.across, *map(Number.text, request.across_range),
+                 request.up, *map(Number.text, request.up_range), request.law, str(body),
                  *map(Number.text, numbers)]  # fmt: skip
-        for name, value in asked.values:
+        for name, value in request.values:
             parts += [name, Number.text(value)]
         return "_".join(parts)
 

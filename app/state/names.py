@@ -100,7 +100,7 @@ ROWS = (
     *_switches("Look", dark="dark", large="large"),
     Name(LANGUAGE, "PageLanguage", "lang", _words(*LANGUAGES), undoable=False),
     # the maps
-    Name("map", "MapChoice", "asked", MapText),
+    Name("map", "MapChoice", "request", MapText),
     Name("mapby", "MapChoice", "colour", _words(*COLOURS_BY)),
     Name("mapat", "MapChoice", "place", Numbers(2)),
     # data of a film

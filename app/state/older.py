@@ -28,8 +28,8 @@ PAPERS_BODY = {"body": Body.text(TruncatedSphere.paper()), "a": ".07", "I1": ".3
 
 def fourth(texts):
     """The texts of a version 3 query in version 4."""
-    said = texts.get(TAB, LAB)
-    room = said if said in (*ROOMS, PLANES) else ROLLING
+    named = texts.get(TAB, LAB)
+    room = named if named in (*ROOMS, PLANES) else ROLLING
     level = texts.get(LEVEL, LEVELS[0] if room == LAB else LEVELS[1])
     found = {key: text for key, text in texts.items() if key not in (TAB, LEVEL, "seconds")}
     if level != LEVELS[0]:
@@ -39,7 +39,7 @@ def fourth(texts):
     if room == "maps":
         found = {"map": MAP} | found
     is_lab = room in (ROLLING, PLANES)
-    known = LAB if said in (ROLLING, PLANES) else said  # what is not known is said to be
+    known = LAB if named in (ROLLING, PLANES) else named  # what is not known is said to be
     return found | {TAB: known, LEVEL: LEVELS[1] if is_lab else level}
 
 

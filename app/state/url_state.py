@@ -13,10 +13,10 @@ import param
 
 from app.model.explorer import Explorer
 from app.model.start import DEFAULTS, GIVEN, USUAL, arrives
-from app.state import asked, older
+from app.state import older, validate
 from app.state.codecs import Number
 from app.state.names import FRAME, NAMES, SECRET, VERSION, VERSION_NAME, of, query
-from app.text import say, told
+from app.text import error_text, say
 from tippe_core import TopError
 
 LONGEST_QUERY = 12_000  # characters; the body with the most points that can be built needs fewer
@@ -69,7 +69,7 @@ def values(texts, known):
             found[parameter] = name.codec.value(texts[name.key])
         except ValueError as error:
             impossible = isinstance(error, TopError)
-            wrong.append(told(error) if impossible else say("share.link.to_be", name=name.key, what=str(error)))
+            wrong.append(error_text(error) if impossible else say("share.link.to_be", name=name.key, what=str(error)))
     return found, say("share.link.unreadable", wrong=" ".join(wrong)) if wrong else ""
 
 
@@ -90,7 +90,7 @@ def explorer_of(texts):
         return Explorer(**first | inputs), sentence
     # the solver's error for numbers whose squares or reciprocals overflow
     except (ValueError, ArithmeticError) as error:
-        why = told(error) if isinstance(error, TopError) else say("share.link.extreme")
+        why = error_text(error) if isinstance(error, TopError) else say("share.link.extreme")
         return Explorer(**first), say("share.link.impossible", why=why)
 
 
@@ -194,7 +194,7 @@ class UrlState(param.Parameterized):
             try:
                 known[event.name].codec.text(event.new)
             except (ValueError, TypeError, OverflowError) as error:
-                asked.pass_over(event, error)
+                validate.log_invalid(event, error)
                 event.obj.param.update(**{event.name: event.old})
         self.param.trigger("changed")
 

@@ -47,10 +47,10 @@ class _Numbers(string.Formatter):
         self._marks = MARKS[language]
 
     def format_field(self, value: object, form: str) -> str:
-        said = super().format_field(value, form)
-        if not isinstance(value, str) and not said.strip("-0."):
-            said = said.removeprefix("-")  # no minus zero
-        return said if isinstance(value, str) else said.translate(self._marks)
+        wording = super().format_field(value, form)
+        if not isinstance(value, str) and not wording.strip("-0."):
+            wording = wording.removeprefix("-")  # no minus zero
+        return wording if isinstance(value, str) else wording.translate(self._marks)
 
 
 @cache
@@ -117,7 +117,7 @@ def written(value: object, form: str = "", language: str | None = None) -> str:
     return _Numbers(language or spoken()).format_field(value, form)
 
 
-def told(error: TopError, language: str | None = None, unit: str = "") -> str:
+def error_text(error: TopError, language: str | None = None, unit: str = "") -> str:
     """The sentence of a TopError in the page's language, as plain text, not HTML; unit: that in which its value is
     shown.
 
@@ -127,16 +127,16 @@ def told(error: TopError, language: str | None = None, unit: str = "") -> str:
     language = language or spoken()
     value = shown(error.value)
     if language == DEFAULT:
-        said = str(error)
+        wording = str(error)
     else:
         words = listed(f"errors.codes.{error.code}", language)
         allowed = words["allowed"].format(**error.numbers) if "allowed" in words else error.allowed
         parts = error.numbers | {"name": called(error.name, language), "value": value, "allowed": allowed}
-        said = words.get("sentence", listed("errors.sentence", language)).format(**parts)
+        wording = words.get("sentence", listed("errors.sentence", language)).format(**parts)
         if "remedy" in words:
-            said += " " + words["remedy"].format(**error.numbers)
-        said = re.sub(r"(?<=\d)[.](?=\d)", ".".translate(MARKS[language]), said)
-    return said.replace(f" = {value} ", f" = {value} {unit} ", 1) if unit else said
+            wording += " " + words["remedy"].format(**error.numbers)
+        wording = re.sub(r"(?<=\d)[.](?=\d)", ".".translate(MARKS[language]), wording)
+    return wording.replace(f" = {value} ", f" = {value} {unit} ", 1) if unit else wording
 
 
 def called(name: str, language: str | None = None) -> str:

@@ -31,7 +31,7 @@ OF_A_MOTION = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3", *FACES["state"])
 
 def hints(language=None):
     """{name of a symbol: what it is}."""
-    of_inputs = {name: said["hint"] for name, said in listed("controls.inputs", language).items()}
+    of_inputs = {name: wording["hint"] for name, wording in listed("controls.inputs", language).items()}
     return listed("controls.hints", language) | of_inputs
 
 
@@ -47,9 +47,9 @@ def worst(scene):
 
 def control(name, **more):
     """The part of a group for one input."""
-    said, symbol = listed(f"controls.inputs.{name}"), SYMBOLS[name]
-    said = said | {"name": said["spoken"], "symbol": symbol, "html": f"{symbol} {said['name']}"}
-    return number(name, said, lines=LINES.get(name, 0), **more)
+    wording, symbol = listed(f"controls.inputs.{name}"), SYMBOLS[name]
+    wording = wording | {"name": wording["spoken"], "symbol": symbol, "html": f"{symbol} {wording['name']}"}
+    return number(name, wording, lines=LINES.get(name, 0), **more)
 
 
 def track(name, value, bounds=None):
@@ -135,7 +135,7 @@ class Controls(param.Parameterized):
         energy = "E" if scene.inputs.get("given") == "E" else "energy"
         self.numbers.show(
             values | {"face": self.face}, self._sliders(scene, values), fields={"energy": scene.constants.E},
-            notes=self._notes(scene), messages={at[name]: typeset(said) for name, said in scene.messages.items()},
+            notes=self._notes(scene), messages={at[name]: typeset(wording) for name, wording in scene.messages.items()},
             refused={each: scene.inputs[energy if each == "energy" else each] for each in at.values()},
             nearest={name: value for name, value in scene.nearest.items() if name not in hidden}, hidden=hidden,
             words={"other": self._other_face(scene)},

@@ -26,15 +26,15 @@ class Download(Bundled):
 
     def __init__(self, runs, state, make, **params):
         super().__init__(**params)
-        self._runs, self._state, self._make, self._asked = runs, state, make, None
+        self._runs, self._state, self._make, self._requested = runs, state, make, None
         self.param.watch(self._clicked, "clicks")
 
     def _clicked(self, event):
-        asked = self.filename, self._state()
-        if self.making and asked == self._asked:
+        request = self.filename, self._state()
+        if self.making and request == self._requested:
             return
-        self._asked, self.making = asked, True
-        name, state = asked
+        self._requested, self.making = request, True
+        name, state = request
         self._runs.begin(Run(lambda run: self._make(*state), partial(self._made, name)), f"file {id(self)}", FILES)
 
     def _made(self, name, result):

@@ -8,7 +8,7 @@ import panel as pn
 import param
 
 from app.bundle import Bundled, values_of
-from app.state import asked
+from app.state import validate
 from app.widgets.download import Download
 from app.widgets.forms import Button, Checks, Choice, Field, Menu, Stretch, TextFile, hear
 
@@ -59,10 +59,12 @@ class Form(Bundled):
         self.state = self._state()
 
     def _take(self, event):
-        count, at, name, new = asked.parts(event.new, asked.number, asked.number, asked.text, asked.anything)
+        count, at, name, new = validate.parts(
+            event.new, validate.number, validate.number, validate.text, validate.anything
+        )
         part = self._parts[int(at)] if 0 <= at < len(self._parts) else None
         if name not in getattr(part, "SENDS", ()):
-            raise asked.Unasked("no such part")
+            raise validate.InvalidMessage("no such part")
         self._heard = int(count)
         try:
             setattr(part, name, new)

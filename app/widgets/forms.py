@@ -8,7 +8,7 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled
-from app.state import asked
+from app.state import validate
 from app.text import say
 
 MOST_CLICKS = 10  # in one message
@@ -18,7 +18,7 @@ def hear(component, **does):
     """Calls does[name] with each event of what the browser sends as this property; it arrives without delay."""
     at_once(component, *does)
     for name, act in does.items():
-        component.param.watch(asked.heard(act), name)
+        component.param.watch(validate.handler(act), name)
 
 
 def one_of(known):
@@ -27,7 +27,7 @@ def one_of(known):
     def read(value):
         if isinstance(value, str) and value in known:
             return value
-        raise asked.Unasked(f"not offered: {value!r:.40}")
+        raise validate.InvalidMessage(f"not offered: {value!r:.40}")
 
     return read
 
@@ -177,10 +177,10 @@ class Stretch(Part):
     def __init__(self, label, does=None, **params):
         super().__init__(label, **params)
         self._does = does
-        self.on("pulled", asked.heard(self._heard))
+        self.on("pulled", validate.handler(self._heard))
 
     def _heard(self, event):
-        _, low, high = asked.parts(event.new, *3 * [asked.number])
+        _, low, high = validate.parts(event.new, *3 * [validate.number])
         self.value = [low, high]
         if self._does:
             self._does()
@@ -197,10 +197,10 @@ class TextFile(Part):
     def __init__(self, label, take, refuse, **params):
         super().__init__(label, **params)
         self._take, self._refuse = take, refuse
-        self.on("sent", asked.heard(self._heard))
+        self.on("sent", validate.handler(self._heard))
 
     def _heard(self, event):
-        text, _, size = asked.parts(event.new, asked.text, asked.number, asked.number)
+        text, _, size = validate.parts(event.new, validate.text, validate.number, validate.number)
         if math.isfinite(size) and size > self.most:
             self._refuse()
         else:

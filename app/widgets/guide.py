@@ -18,22 +18,22 @@ class Guide(Bundled):
     description of the motion, read aloud."""
 
     tour = param.Boolean(default=True, doc="Whether the room of the tour is shown.")
-    said = param.String(default="", doc="The present motion in plain words; for a hand at rest.")
+    wording = param.String(default="", doc="The present motion in plain words; for a hand at rest.")
 
     @classmethod
     def says(cls, language=None):
         return super().says(language) | {"statement": statement(language)}
 
     def show(self, scene):
-        self.tell(said=spoken(scene))
+        self.tell(wording=spoken(scene))
 
 
 def statement(language=None):
     """Of the page's accessibility: [(heading, paragraphs)], the first its title."""
     told, who = listed("accessibility", language), RESPONSIBLE["who"]
-    said = say("accessibility.who", language, responsible=html.escape(who)) if who else told["nobody"]
-    return [(told["title"], [told["about"]]), *((part["heading"], part["said"]) for part in told["parts"]),
-            (told["contact"], [said, told["further"]])]  # fmt: skip
+    wording = say("accessibility.who", language, responsible=html.escape(who)) if who else told["nobody"]
+    return [(told["title"], [told["about"]]), *((part["heading"], part["wording"]) for part in told["parts"]),
+            (told["contact"], [wording, told["further"]])]  # fmt: skip
 
 
 def spoken(scene):

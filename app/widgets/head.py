@@ -8,14 +8,14 @@ import panel as pn
 import param
 
 from app.bundle import Bundled
-from app.state import asked
+from app.state import validate
 from app.text import LANGUAGES, listed, say, spoken
 from app.widgets.forms import hear, one_of
 
 
 class Head(Bundled):
     state = param.Dict(default={}, doc="Everything that it shows; set by HeadBar.")
-    asked = param.List(default=[], doc="[count, name, value] of a request; the browser writes it.")
+    request = param.List(default=[], doc="[count, name, value] of a request; the browser writes it.")
 
 
 class HeadBar:
@@ -36,14 +36,14 @@ class HeadBar:
                 for name in ("room", "level")}  # fmt: skip
         self._does = steps | switches | goes | does
         self.view = Head(margin=0, sizing_mode="stretch_width")
-        hear(self.view, asked=self._heard)
+        hear(self.view, request=self._heard)
         rooms.param.watch(self._say, ["room", "level"])
         url_state.param.watch(self._say, ["can_undo", "can_redo"])
         look.param.watch(self._say, list(self.SWITCHES))
         self._say()
 
     def _heard(self, event):
-        count, name, value = asked.parts(event.new, asked.number, one_of(self._does), asked.anything)
+        count, name, value = validate.parts(event.new, validate.number, one_of(self._does), validate.anything)
         self._answered = int(count)
         with pn.io.hold():
             try:

@@ -7,7 +7,7 @@ import math
 import param
 
 from app.bundle import Bundled
-from app.state import asked
+from app.state import validate
 from app.text import say, written
 from app.widgets.forms import hear
 
@@ -23,7 +23,7 @@ class NumberControls(Bundled):
     # JSON, because Panel and Bokeh search each part of a dict again and again
     parts = param.String(default="[]", doc="As of heading(), number(), choice(), words() and dock(), in order.")
     state = param.String(default="{}", doc="As of Numbers.show(), and the last count that was answered.")
-    asked = param.List(default=[], doc="[count, name, number or text, whether it was typed].")
+    request = param.List(default=[], doc="[count, name, number or text, whether it was typed].")
 
 
 def heading(text, choice=None):
@@ -31,11 +31,11 @@ def heading(text, choice=None):
     return {"kind": "heading", "text": text, "choice": choice}
 
 
-def number(name, said, *, lines=0, marks=()):
+def number(name, wording, *, lines=0, marks=()):
     """A number control. said: its words: name, typed (that of its field) and unit; html, speaks: the name and the unit
     as they are shown and read aloud; hint: on hover; lines: of words that are reserved below; marks: (value, word) of
     named places on the slider."""
-    return {"kind": "number", "name": name, "said": said, "lines": lines, "marks": [list(mark) for mark in marks]}
+    return {"kind": "number", "name": name, "wording": wording, "lines": lines, "marks": [list(mark) for mark in marks]}
 
 
 def choice(name, label, options):
@@ -72,7 +72,7 @@ class Numbers:
         self._wrong = {}  # {name: text that was typed and is not a number}
         self.view = NumberControls(**({"sizing_mode": "stretch_width", "margin": 0} | layout))
         self.lay_out(parts)
-        hear(self.view, asked=self._asked)
+        hear(self.view, request=self._on_request)
 
     def lay_out(self, parts):
         """Replaces the inputs; show() is to follow."""
@@ -82,15 +82,15 @@ class Numbers:
         self._numbers = {part["name"] for part in all_parts if part["kind"] == "number"}
         self._parts = json.dumps(parts)
 
-    def _asked(self, event):
-        count, name, wish, typed = asked.parts(event.new, asked.number, asked.text, asked.anything, bool)
+    def _on_request(self, event):
+        count, name, wish, typed = validate.parts(event.new, validate.number, validate.text, validate.anything, bool)
         if name in self._options:
             if wish not in self._options[name]:
-                raise asked.Unasked(wish)
+                raise validate.InvalidMessage(wish)
         elif name not in self._numbers:
-            raise asked.Unasked(name)
+            raise validate.InvalidMessage(name)
         elif not (typed and isinstance(wish, str)):
-            wish = asked.number(wish)
+            wish = validate.number(wish)
         self._answered = int(count)
         self._wrong.clear()
         if isinstance(wish, str) and name in self._numbers:

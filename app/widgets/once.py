@@ -12,31 +12,31 @@ class Once:
     def __init__(self, most):
         self._most, self._found, self._claimed, self._changing = most, OrderedDict(), set(), threading.Lock()
 
-    def __contains__(self, asked):
-        return asked in self._found
+    def __contains__(self, request):
+        return request in self._found
 
-    def find(self, run, asked, work):
+    def find(self, run, request, work):
         """The answer to what is asked (hashable): that of work(), unless it is known or is being computed already.
         To be called within a Run."""
         while True:
             with self._changing:
-                if asked in self._found:
-                    self._found.move_to_end(asked)
-                    return self._found[asked]
-                if mine := asked not in self._claimed:
-                    self._claimed.add(asked)
+                if request in self._found:
+                    self._found.move_to_end(request)
+                    return self._found[request]
+                if mine := request not in self._claimed:
+                    self._claimed.add(request)
             if not mine:
                 run.wait(OTHERS)
                 continue
             try:
                 found = work()
                 with self._changing:
-                    self._found[asked] = found
+                    self._found[request] = found
                     while len(self._found) > self._most:
                         self._found.popitem(last=False)
                 return found
             finally:
-                self._claimed.discard(asked)
+                self._claimed.discard(request)
 
 
 ONCE = Once(64)  # of at most some 0.2 MB

@@ -8,7 +8,7 @@ from app.borrowed import at_once
 from app.model.roll.slipping import slipping
 from app.model.runs import LATER, Run, Runs
 from app.model.start import DEFAULTS, GIVEN
-from app.state import asked
+from app.state import validate
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import one_of
 from app.widgets.plane_view import PlaneView
@@ -25,10 +25,10 @@ class PlaneCard:
         self._roads = {"slip": slip, "paper": lambda: ask(**papers())}
         self.plane = PlaneView(sizing_mode="stretch_both", margin=0)
         at_once(self.plane, "hand", "pressed")
-        self.plane.param.watch(asked.heard(self._on_road), "pressed")
+        self.plane.param.watch(validate.handler(self._on_road), "pressed")
 
     def _on_road(self, event):
-        _, road = asked.parts(event.new, asked.number, one_of(self._roads))
+        _, road = validate.parts(event.new, validate.number, one_of(self._roads))
         with pn.io.hold():
             self._roads[road]()
 

@@ -70,7 +70,7 @@ class Place:
     part by part. Between the steps, and after them, others are served."""
 
     def __init__(self, name, make, add):
-        self._make, self._add, self._view, self._asked = make, add, None, False
+        self._make, self._add, self._view, self._requested = make, add, None, False
         self._steps, self._stands = [], False  # what is still to be put, and whether something is there
         self._left = None  # when the page looked elsewhere
         self._failed, self._turn, self._document = False, None, pn.state.curdoc
@@ -85,9 +85,9 @@ class Place:
 
     def ask(self):
         """Has the view created when its turn comes, unless it exists or is being created."""
-        if self._asked:
+        if self._requested:
             return
-        self._asked = True
+        self._requested = True
         if self._failed:
             self._failed = False
             self.column.objects, self._stands = [self._says], False
@@ -100,7 +100,7 @@ class Place:
     def leave(self):
         """Its page looks elsewhere: it gives up its turn, unless that has come."""
         if self._turn is not None and self._turn.leave():
-            self._turn, self._asked = None, False
+            self._turn, self._requested = None, False
 
     def left(self):
         """Its page looks elsewhere from now on: after a long time it gives its parts back."""
@@ -110,11 +110,11 @@ class Place:
     def _give_back(self, left):
         is_whole = self._stands and not self._steps and not self._failed
         if is_whole and left == self._left and not self.column.visible and size(self._view) > MOST:
-            self.column.objects, self._asked, self._stands = [self._says], False, False
+            self.column.objects, self._requested, self._stands = [self._says], False, False
 
     def fill(self):
         """Creates the view now. An error leaves a sentence, and creating it can be tried again."""
-        self._asked = True
+        self._requested = True
         self._attempt(self._view_made, self._end)
 
     def _line_up(self):
@@ -125,7 +125,7 @@ class Place:
         if connected_to(self._document)():
             self._post(partial(self._step, turn))
         elif turn.begin():
-            self._asked = False
+            self._requested = False
             turn.done(0)
 
     def _post(self, act):
@@ -182,7 +182,7 @@ class Place:
                 step()
         except Exception:
             log.exception("a bug: a tab could not be made")
-            self._asked, self._failed = False, True
+            self._requested, self._failed = False, True
             again = Button(say("main.making.again"), self.ask)
             self.column.objects = [
                 words(alert(say("main.making.failed")), margin=AROUND),

@@ -46,7 +46,7 @@ class RenderScheduler:
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
         self._single = True  # whether the hand was at rest before the last request
-        self._said = None  # the scene that was shown to "rest" since then
+        self._rested = None  # the scene that was shown to "rest" since then
         self._stayed = explorer.scene  # the scene that was last shown to "still"
         self._rest = Rest(self._rests, self._is_asking)
         self._later, self._begun = [], False
@@ -95,7 +95,7 @@ class RenderScheduler:
     def ask(self, **inputs):
         """Requests these inputs of the Explorer; a later request for the same input replaces one that still waits."""
         self._wanted.update(inputs)
-        self._single, self._said = self._resting, None  # a request is answered even if nothing changes
+        self._single, self._rested = self._resting, None  # a request is answered even if nothing changes
         self._resting = False
         self._rest.moved()
         self._advance()
@@ -123,8 +123,8 @@ class RenderScheduler:
             others.callback(_each, self._shows["pictures"], scene)
 
     def _say(self, scene):
-        if scene is not self._said:
-            self._said = scene
+        if scene is not self._rested:
+            self._rested = scene
             _each(self._shows["rest"], scene)
 
     def _on_scene(self, event):

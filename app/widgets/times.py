@@ -29,11 +29,11 @@ def label(name):
     """What a figure shows, and its unit, as HTML, each quantity in the colour of its curve."""
     if name not in ROWS:
         return say("planes.keys.energy")
-    said = "<br>".join(
+    wording = "<br>".join(
         f'<b style="color: var(--{COLOUR[each]}, {COLOURS[COLOUR[each]]})">{say(f"planes.quantities.{each}")}</b>'
         for each in ROWS[name]
     )
-    return f"{said}<br>" + say(f"planes.units.{name}")
+    return f"{wording}<br>" + say(f"planes.units.{name}")
 
 
 def key():
@@ -111,6 +111,6 @@ class TimeFigures:
 
 def row(figures, name, height):
     """A figure with its label at the left, as a Panel object; height: px."""
-    said = words(f'<div class="quantity">{label(name)}</div>', width=60, sizing_mode="stretch_height",
+    wording = words(f'<div class="quantity">{label(name)}</div>', width=60, sizing_mode="stretch_height",
                  margin=(6, 0, 0, 0))  # fmt: skip
-    return pn.Row(said, pane(figures.figures[name]), sizing_mode="stretch_width", height=height, margin=0)
+    return pn.Row(wording, pane(figures.figures[name]), sizing_mode="stretch_width", height=height, margin=0)

@@ -6,7 +6,7 @@ import param
 from app.bundle import Bundled
 from app.model.build.dimensions import named
 from app.model.families.known_tops import known_of, known_tops
-from app.state import asked
+from app.state import validate
 from app.text import listed
 from app.widgets.forms import hear, one_of
 
@@ -40,12 +40,12 @@ class TopsMap(Bundled):
 
     def _picked(self, event):
         known = {top.name: top for top in known_tops()}
-        _, name = asked.parts(event.new, asked.number, one_of(known))
+        _, name = validate.parts(event.new, validate.number, one_of(known))
         self._look(known[name])
 
     def _moved(self, event):
         """Asks for a ball with these numbers and the I1 of the page's top."""
-        _, a, ratio = asked.parts(event.new, asked.number, asked.number, asked.number)
+        _, a, ratio = validate.parts(event.new, validate.number, validate.number, validate.number)
         self._ask(a=a, I3=self._scene.top.I1 / ratio)
 
 

@@ -6,9 +6,9 @@ import globals from "globals";
 const typed = {
   create(context) {
     const look = (node, made) => {
-      const said = context.sourceCode.getCommentsBefore(node).some(({ value }) => /@(param|type)\b/.test(value));
+      const wording = context.sourceCode.getCommentsBefore(node).some(({ value }) => /@(param|type)\b/.test(value));
       const inside = made.params.every(({ loc }) => context.sourceCode.lines[loc.start.line - 1].includes("/** @type"));
-      if (made.params.length && !said && !inside) context.report({ node, message: "An exported function says the types of what it takes." });
+      if (made.params.length && !wording && !inside) context.report({ node, message: "An exported function says the types of what it takes." });
     };
     return {
       ExportNamedDeclaration(node) {

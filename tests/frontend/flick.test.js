@@ -30,7 +30,7 @@ test("a flick the way that the point turns spins it that way, along its axis not
 test("the pushes of a run are read in R and M (gR)^1/2, with their sizes", () => {
   const texts = { push_units: ["{size} mN s", "{size} N s"], decimal: "," };
   const [one, other] = pushesIn(texts, { R: 15, impulse: 2, of: { pushes: [".5_0_3_15_.6_-.8_0~2_0_0_0_0_0_3000"] } });
-  assert.deepEqual([one.t, one.point, one.impulse, one.said], [0.5, [0, 0.2, 1], [0.3, -0.4, 0], "1,00 mN s"]);
-  assert.equal(other.said, "3,00 N s");
+  assert.deepEqual([one.t, one.point, one.impulse, one.wording], [0.5, [0, 0.2, 1], [0.3, -0.4, 0], "1,00 mN s"]);
+  assert.equal(other.wording, "3,00 N s");
   assert.deepEqual(pushesIn(texts, { R: 15, impulse: 2, of: { pushes: [""] } }), []);
 });

@@ -4,7 +4,7 @@ import { awayFromTieline, gripAt, REACH } from "../../app/frontend/src/plane/gri
 import { isFollowed } from "../../app/frontend/src/figures/seeking.js";
 import { modelOf } from "../../app/frontend/src/stand_in.js";
 import { inLook, stepOf } from "../../app/frontend/src/widgets/address.js";
-import { figures, rowAt, said } from "../../app/frontend/src/widgets/lines.js";
+import { figures, rowAt, wording } from "../../app/frontend/src/widgets/lines.js";
 import { placeBeside } from "../../app/frontend/src/figures/readout.js";
 import { markOf } from "../../app/frontend/src/widgets/phone.js";
 
@@ -62,7 +62,7 @@ test("numbers of the derivation are short, and a vector has its brackets", () =>
   assert.deepEqual([1.23456789, -0.5, 0, 3e-301, 0.00001234, -2e-7].map((x) => figures(x, 6)), ["1.23457", "−0.5", "0", "0", "1.2e−5", "−2.0e−7"]);
   assert.equal(figures(0.00001234, 10), "1.234e−5");
   assert.equal(figures(NaN, 6), "—");
-  assert.equal(said(Float64Array.of(1, -2), 6), "(1; −2)");
+  assert.equal(wording(Float64Array.of(1, -2), 6), "(1; −2)");
 });
 
 test("the row of a time is the nearest one within its nutation", () => {

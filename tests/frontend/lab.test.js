@@ -69,8 +69,8 @@ test("the words of events are placed where there is room, short where there is l
   const two = placed([[80, "stands 1.5 s", "stands 1.5 s"], [187, "falls 4.5 s", "falls 4.5 s"], [224, "off its stem 5.6 s", "off its stem 5.6 s"]], 0, 340, wide);
   assert.deepEqual(two.map(({ side, row }) => [side, row]), [["start", 0], ["end", 1], ["start", 0]]); // a second row if one has no room
   const phone = [[64, "over 1.0 s"], [77, "stands 1.5 s"], [154, "falls 4.5 s"], [229, "tips back 7.3 s"], [304, "rolls 10.0 s"]].map(([x, word]) => [x, word, word]);
-  const said = placed(phone, -6, 358, wide).map(({ word }) => word);
-  assert.ok(["over 1.0 s", "stands 1.5 s", "falls 4.5 s"].every((word) => said.includes(word))); // what it is for comes first
+  const wording = placed(phone, -6, 358, wide).map(({ word }) => word);
+  assert.ok(["over 1.0 s", "stands 1.5 s", "falls 4.5 s"].every((word) => wording.includes(word))); // what it is for comes first
   assert.equal(placed([[5, "a long word", "short one"], [9, "a long word", "short one"], [13, "a long word", "short one"]], 0, 20, wide).length, 0);
 });
 
@@ -120,9 +120,9 @@ test("the earlier run is the one before the gesture, until it is dismissed or re
   before.touch("spin", middle, 0, 500); // the same gesture
   const found = before.follow(middle, fast);
   assert.equal(found.compared, "Spin: 20.0 rev/s → 28.0 rev/s. Before: Nods.");
-  const asked = [];
-  before.goBack((...wish) => asked.push(wish), fast);
-  assert.deepEqual(asked, [["spin", 20]]);
+  const request = [];
+  before.goBack((...wish) => request.push(wish), fast);
+  assert.deepEqual(request, [["spin", 20]]);
   assert.equal(before.follow(fast, slow), null); // no person changed that
   before.follow(slow, fast);
   before.touch("mu", fast, 0, 9000);
@@ -173,9 +173,9 @@ test("what is conserved is told to the present moment, with as many digits as te
     1.3, 4, 205, 103, 2, 4.9, 4.84, 3, 7.32, -4.5, 3, 28.6, -14,
     6, 4, 205, 21, 4, 4.9, 1.06, 1, 7.31, 7.3134, 0, 28.6, 28.6,
   ]);
-  const said = (t) => keptAt(rows, t, texts).map(([, ...words]) => words.join(" "));
-  assert.deepEqual(said(1.29), ["kept 205 mm", "kept 4,90", "kept 7,32", "kept 28,6 rev/s"]);
-  for (const t of [1.3, 5.99]) assert.deepEqual(said(t), ["heat 205 → 103 mm", "nearly 4,90 → 4,84", "zero 7,32 → −4,50", "reversed 28,6 → −14,0 rev/s"]);
-  assert.deepEqual(said(6), ["heat 205 → 21 mm", "lost 4,90 → 1,06", "swings 7,310 – 7,313", "kept 28,6 rev/s"]);
+  const wording = (t) => keptAt(rows, t, texts).map(([, ...words]) => words.join(" "));
+  assert.deepEqual(wording(1.29), ["kept 205 mm", "kept 4,90", "kept 7,32", "kept 28,6 rev/s"]);
+  for (const t of [1.3, 5.99]) assert.deepEqual(wording(t), ["heat 205 → 103 mm", "nearly 4,90 → 4,84", "zero 7,32 → −4,50", "reversed 28,6 → −14,0 rev/s"]);
+  assert.deepEqual(wording(6), ["heat 205 → 21 mm", "lost 4,90 → 1,06", "swings 7,310 – 7,313", "kept 28,6 rev/s"]);
   assert.deepEqual(keptAt(rows.subarray(0, 13), 0, texts).map(([kind]) => kind), ["kept", "kept", "kept", "kept"]);
 });

@@ -70,7 +70,7 @@ test("the handle requests the tilt under the pointer, in the plane of the axis",
   assert.ok(model.tilted[0] < Math.PI && model.tilted[0] > 3.1);
   assert.deepEqual(model.tilted.slice(1), [2.5, 3]);
   assert.equal(handle.begins(), false);
-  handle.asked = true; // by a key: for the one motion that answers it
+  handle.requested = true; // by a key: for the one motion that answers it
   assert.deepEqual([handle.begins(), handle.begins()], [true, false]);
   handle.held = true;
   assert.deepEqual([handle.begins(), handle.begins()], [true, true]);

@@ -18,12 +18,12 @@ test("arrays are stored column by column as second differences of steps, and mis
 });
 
 test("earlier changes reach the session's model, which from then on announces its own", () => {
-  const heard = [], { model, become } = standIn(/** @type {any} */ ({ asked: [], state: { mu: 0.3 }, a: 1 }));
-  for (const name of ["asked", "state", "a"]) model.on(name, () => heard.push(name));
-  model.asked = [1, "spin", 30];
-  const runs = {}, its = /** @type {any} */ ({ asked: [], state: { mu: 0.2 }, a: 1, on: (name, run) => (runs[name] = run) });
+  const heard = [], { model, become } = standIn(/** @type {any} */ ({ request: [], state: { mu: 0.3 }, a: 1 }));
+  for (const name of ["request", "state", "a"]) model.on(name, () => heard.push(name));
+  model.request = [1, "spin", 30];
+  const runs = {}, its = /** @type {any} */ ({ request: [], state: { mu: 0.2 }, a: 1, on: (name, run) => (runs[name] = run) });
   become(its);
-  assert.deepEqual(its.asked, [1, "spin", 30]);
+  assert.deepEqual(its.request, [1, "spin", 30]);
   assert.deepEqual(heard, ["state"]); // an equal number is no change
   assert.equal(model.state.mu, 0.2);
   its.state = { mu: 0.1 };

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { finder, saidOf } from "../../app/frontend/src/widgets/terms.js";
+import { finder, readoutOf } from "../../app/frontend/src/widgets/terms.js";
 
 const TERMS = {
   precession: { forms: "precession", is: "the axis goes round" },
@@ -19,6 +19,6 @@ test("a term is found as a whole word, in any of its forms, longest first", () =
 });
 
 test("a term that is also a symbol has its sketch", () => {
-  assert.match(saidOf(TERMS, "angle"), /^<svg.*<b>tilt<\/b>: the angle\.<\/div>$/);
-  assert.equal(saidOf(TERMS, "steady"), "<div><b>steady precession</b>: the tilt stays.</div>");
+  assert.match(readoutOf(TERMS, "angle"), /^<svg.*<b>tilt<\/b>: the angle\.<\/div>$/);
+  assert.equal(readoutOf(TERMS, "steady"), "<div><b>steady precession</b>: the tilt stays.</div>");
 });

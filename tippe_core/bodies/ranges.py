@@ -40,13 +40,22 @@ def in_range(
     why: str = "",
     remedy: str = "",
 ) -> float:
-    """value, or a TopError unless low <= value <= high (strictly if above or below). why: the reason for the range."""
-    if (low < value if above else low <= value) and (value < high if below else value <= high) and isfinite(value):
+    """value as a float, or a TopError unless low <= value <= high (strictly if above or below). why: the reason for the
+    range."""
+    value = finite(name, value)
+    if (low < value if above else low <= value) and (value < high if below else value <= high):
         return value
     left = f"{low:g} {'<' if above else '<='} " if isfinite(low) else ""
     right = f" {'<' if below else '<='} {high:g}" if isfinite(high) else ""
     allowed = f"{{range}} ({{unit}}, {why})" if why else "{range} ({unit})"
     raise TopError(name, value, allowed, remedy, code=code, range=f"{left}{name}{right}", unit=unit)
+
+
+def whole(name: str, value: object, low: int, high: int, least: str = "") -> None:
+    """Raises a TopError unless value is a whole number of this range. least: what `low` is, as in " (the corners)"."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+        raise TopError(name, value, f"a whole number from {{low}}{least} to {{high}}", code="not-whole", low=low,
+                       high=high)  # fmt: skip
 
 
 def rows_of(name: str, rows: object, columns: int, most: int) -> tuple[tuple[float, ...], ...]:

@@ -100,13 +100,9 @@ def a_from_rocking(
     TopError
         if no a < 1 gives so short a period
     """
-    given = {"T": T, "R": R, "I1": I1, "g": g}
-    for name, value in given.items():
-        given[name] = in_range(name, finite(name, value), 1e-9, 1e9, "SI; I1 in MR^2")
-    errors = {"T": dT, "R": dR, "I1": dI1, "g": dg}
-    for name, value in errors.items():
-        errors[name] = in_range(f"d{name}", finite(f"d{name}", value), 0, 1e9, "SI; I1 in MR^2")
-    T, R, I1, g = given.values()
+    given, errors = {"T": T, "R": R, "I1": I1, "g": g}, {"T": dT, "R": dR, "I1": dI1, "g": dg}
+    T, R, I1, g = (in_range(name, value, 1e-9, 1e9, "SI; I1 in MR^2") for name, value in given.items())
+    errors = {name: in_range(f"d{name}", value, 0, 1e9, "SI; I1 in MR^2") for name, value in errors.items()}
     q = (T / (2 * pi)) ** 2 * g / R
     # a < 1: at a = 1 the quadratic is I1 - q, so q > I1; and both roots are real
     least = max(I1, 2 * sqrt(1 + I1) - 2)
@@ -158,8 +154,8 @@ def dimension_from_rocking(
     TopError
         if no x in the range, or more than one, gives this period
     """
-    in_range("T", finite("T", T), 0, inf, "s", above=True)
-    in_range("g", finite("g", g), 0, inf, "m/s^2", above=True)
+    in_range("T", T, 0, inf, "s", above=True)
+    in_range("g", g, 0, inf, "m/s^2", above=True)
 
     def period(x: float) -> float:
         try:

@@ -141,7 +141,7 @@ class Shape:
     def with_mass(self, M: float) -> Self:
         """The same body with its density, or densities, scaled so that its mass is M (kg); what is let into it
         keeps its own."""
-        factor = weight(finite("M", M)) / self.mass
+        factor = weight(M) / self.mass
         return replace(self, **{name: _times(factor, getattr(self, name)) for name in self._weights})
 
     def __add__(self, other: "Solid | Shape") -> "Turned":
@@ -176,7 +176,7 @@ class OneMaterial(Shape):
     @classmethod
     def from_density(cls, density: float, **dimensions: float) -> Self:
         """The shape with this density (kg/m^3) instead of a mass."""
-        in_range("density", finite("density", density), THINNEST, DENSEST, "kg/m^3")
+        in_range("density", density, THINNEST, DENSEST, "kg/m^3")
         body = cls(M=1e-3, **dimensions)  # type: ignore[call-arg]  # a field of each kind
         return replace(body, M=density * body.form.mass)  # type: ignore[call-arg]
 

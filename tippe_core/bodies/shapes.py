@@ -285,14 +285,13 @@ class Lathe(Shape):
         object.__setattr__(self, "points", points)
         given: Number = self.density  # or another sequence
         if np.ndim(given) == 0:
-            density = in_range("density", finite("density", given), THINNEST, DENSEST, "kg/m^3")
+            density = in_range("density", given, THINNEST, DENSEST, "kg/m^3")
         else:
             if len(given) != len(points):
                 raise TopError("density", given, "one number, or as many as points ({count})", code="wrong-count",
                                count=len(points))  # fmt: skip
-            density = tuple(finite(f"density[{index}]", value) for index, value in enumerate(given))
-            for index, value in enumerate(density):
-                in_range(f"density[{index}]", value, THINNEST, DENSEST, "kg/m^3")
+            density = tuple(in_range(f"density[{index}]", value, THINNEST, DENSEST, "kg/m^3")
+                            for index, value in enumerate(given))  # fmt: skip
         object.__setattr__(self, "density", density)
         check_one_piece("points", self.solid)
 

@@ -11,6 +11,7 @@ from ..errors import TopError, checked
 from ..types import Array, Scalars
 from . import mesh
 from .outline import Edge, chains, encloses, flats
+from .ranges import whole
 from .slices import EMPTY, NODES, SAME, WEIGHTS, Frustum, Slice, Zone, crossings
 
 Cell: TypeAlias = tuple[float, float, list[Slice]]
@@ -151,9 +152,7 @@ class Solid:
         Every corner is one of the points; the others are distributed over the arcs in proportion to their lengths.
         """
         corners = len(self.outline) + 1
-        if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or not corners <= n <= 1_000_000:
-            raise TopError("n", n, "a whole number of points from {low} (the corners) to {high}", code="not-whole",
-                           low=corners, high=1_000_000)  # fmt: skip
+        whole("n", n, corners, 1_000_000, " (the corners)")
         arcs = np.array([edge.length if edge.arc else 0.0 for edge in self.outline])
         lengths = arcs if arcs.any() else np.array([edge.length for edge in self.outline])
         shares = np.concatenate([[0], np.cumsum(lengths)]) / lengths.sum()

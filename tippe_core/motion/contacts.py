@@ -12,10 +12,10 @@ from ..compiled import compiled
 from ..paper.search import zero
 from ..types import Array, Bools, Indices, Number
 from . import at
-from .dynamics import arrange, forces, kinetic, rates, slip_rate, turning
+from .dynamics import arrange, carried, forces, kinetic, rates, slip_rate, turning
 from .friction import bounds
 from .impact import give_impulse, held, impact, mobility, moving, rests
-from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event
+from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event, Modes
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
 
@@ -28,33 +28,32 @@ NUDGE = 1e-8  # ((gR)^1/2): the slip with which a patch starts to slide; far abo
 SINKS = 1e-6  # (g): an open contact that accelerates downwards faster than this would have to carry
 LOG_STILL = float(np.log(STILL))
 DIRECTIONS = 64
-# modes of (ball, stem), in the order in which they are tried: loaded and sticking ones first
+# modes of ball and stem, in the order in which they are tried: loaded and sticking ones first
 MODES_IN_ORDER = np.array([[2, 2], [2, 1], [1, 2], [1, 1], [0, 2], [2, 0], [0, 1], [1, 0], [0, 0]])
 
 
-def spare(i: int, P: Record, C: Record, alone: bool) -> float:
+def spare(i: int, modes: Modes, P: Record, C: Record) -> float:
     """How far static friction at contact i is below its limit: mu_s N - F_h, and the same for its torque."""
     most, twists = bounds(P.law)
     holds = most * C.F[i, 2] - np.sqrt(C.F[i, 0] ** 2 + C.F[i, 1] ** 2)
-    if P.law.pivots and alone:
+    if P.law.pivots and carried(modes) < 3:
         holds = min(holds, twists * C.F[i, 2] - abs(C.M[i, 2]))
     return holds
 
 
-def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -> float:
+def margin(y: Array, minor: float, modes: Modes, P: Record, C: Record) -> float:
     """A cheap estimate of how close the guards are to 0, after rates()."""
     least = minor
     for i in range(1 + P.stem):
-        mode = ball if i == BALL else stem
-        if mode == OPEN:
+        if modes[i] == OPEN:
             least = min(least, C.height[i])
         else:
             least = min(least, C.F[i, 2])
-            if mode == STICK:
-                least = min(least, spare(i, P, C, ball == OPEN or stem == OPEN))
+            if modes[i] == STICK:
+                least = min(least, spare(i, modes, P, C))
     down = y[at.PX] * y[at.PX] + y[at.PY] * y[at.PY]
     up = 1 - 2 * down
-    if stem != OPEN and P.b > 0.0 and up < 0:
+    if modes[STEM] != OPEN and P.b > 0.0 and up < 0:
         least = min(least, 2 * np.sqrt(down * (y[at.PZ] * y[at.PZ] + y[at.PW] * y[at.PW])))
     for value in tilt_guards(up, P):
         least = min(least, value)
@@ -66,26 +65,23 @@ def tilt_guards(up: Number, P: Record) -> tuple[Number, ...]:
     return (up - P.rim,)
 
 
-def guards(
-    y: Array, slowest: int, ball: int, stem: int, floor: Array, P: Record, S: Record, C: Record, out: Array
-) -> None:
+def guards(y: Array, slowest: int, modes: Modes, floor: Array, P: Record, S: Record, C: Record, out: Array) -> None:
     """Writes the guards, which must not become negative, into out[kind, contact]; what is of the whole top, into that
     of the ball. floor: heights that count as the table's."""
-    e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
+    e, w, L3 = turn = arrange(y, slowest, modes, P, C)
     out[:] = 1.0
-    out[BALANCES, BALL] = forces(turn, ball, stem, P, C) - LEAST_MINOR
+    out[BALANCES, BALL] = forces(turn, modes, P, C) - LEAST_MINOR
     for i in range(1 + P.stem):
-        mode = ball if i == BALL else stem
-        if mode == OPEN:
+        if modes[i] == OPEN:
             out[TOUCHES, i] = max(C.height[i] - floor[i] + TOUCH, C.u[i, 2] + SLACK)
         else:
             out[LEAVES, i] = C.F[i, 2] + SLACK
-        if mode == STICK:
-            out[SLIPS, i] = spare(i, P, C, ball == OPEN or stem == OPEN) + SLACK
+        if modes[i] == STICK:
+            out[SLIPS, i] = spare(i, modes, P, C) + SLACK
     values = tilt_guards(e[2], P)
     for n in range(len(values)):
         out[RIM + n, BALL] = values[n]
-    if stem != OPEN and P.b > 0.0 and e[2] < 0.0:
+    if modes[STEM] != OPEN and P.b > 0.0 and e[2] < 0.0:
         edge = P.b, P.h, P.q
         s, rate = leaning(e, w)
         S.at[:] = y
@@ -111,28 +107,33 @@ def first_negative(found: Array) -> Event:
 # ---- slipping ----
 
 
-def may_stick(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> bool:
+def stuck(modes: Modes, i: int) -> Modes:
+    """The modes if contact i sticks."""
+    return (STICK, modes[STEM]) if i == BALL else (modes[BALL], STICK)
+
+
+def may_stick(y: Array, modes: Modes, i: int, P: Record, C: Record) -> bool:
     """Whether contact i could stick in this state."""
-    ball, stem = STICK if i == BALL else ball, STICK if i == STEM else stem
-    forces(arrange(y, NO_ONE, ball, stem, P, C), ball, stem, P, C)
-    return spare(i, P, C, ball == OPEN or stem == OPEN) >= 0.0
+    modes = stuck(modes, i)
+    forces(arrange(y, NO_ONE, modes, P, C), modes, P, C)
+    return spare(i, modes, P, C) >= 0.0
 
 
-def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> None:
+def let_go(y: Array, modes: Modes, P: Record, S: Record, C: Record) -> None:
     """y with a minimal slip at a contact that starts to slip, in the direction in which the slip grows."""
     for i in range(1 + P.stem):
-        if (ball if i == BALL else stem) == SLIP and rests(y, i, P, C):
+        if modes[i] == SLIP and rests(y, i, P, C):
             if P.law.radius > 0.0:
-                let_patch_go(y, ball, stem, i, P, C)
+                let_patch_go(y, modes, i, P, C)
             else:
-                beta, u = direction(y, ball, stem, i, P, S, C), moving(y, i, P, C)
+                beta, u = direction(y, modes, i, P, S, C), moving(y, i, P, C)
                 y[at.VX] += STILL * np.cos(beta) - u[0]
                 y[at.VY] += STILL * np.sin(beta) - u[1]
 
 
-def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
+def direction(y: Array, modes: Modes, i: int, P: Record, S: Record, C: Record) -> float:
     """The direction beta of a slip that begins: u' is parallel to u; if there are several, the fastest-growing one."""
-    best, found, last, given = -np.inf, 0.0, 0.0, (y, ball, stem, i, P, S, C)
+    best, found, last, given = -np.inf, 0.0, 0.0, (y, modes, i, P, S, C)
     for n in range(DIRECTIONS + 1):
         beta = 2 * np.pi * n / DIRECTIONS
         now = sideways_rate(beta, *given)
@@ -145,19 +146,19 @@ def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: R
     return found
 
 
-def sideways_rate(beta: float, y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
+def sideways_rate(beta: float, y: Array, modes: Modes, i: int, P: Record, S: Record, C: Record) -> float:
     """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, LOG_U] is the
     parallel one."""
     S.at[:] = y
     S.at[at.LOG_U], S.at[at.BETA] = LOG_STILL, beta
-    rates(S.at, i, ball, stem, P, C, S.K[0])
+    rates(S.at, i, modes, P, C, S.K[0])
     return S.K[0, at.BETA]
 
 
-def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> None:
+def let_patch_go(y: Array, modes: Modes, i: int, P: Record, C: Record) -> None:
     """y with a minimal slip and spin at a patch that starts to slide, opposite to the force and torque that held it."""
-    ball, stem = STICK if i == BALL else ball, STICK if i == STEM else stem
-    forces(arrange(y, NO_ONE, ball, stem, P, C), ball, stem, P, C)
+    modes = stuck(modes, i)
+    forces(arrange(y, NO_ONE, modes, P, C), modes, P, C)
     most, twists = bounds(P.law)
     F, M, N = (C.F[i, 0], C.F[i, 1]), C.M[i, 2], abs(C.F[i, 2]) + SLACK
     q = moving(y, i, P, C)
@@ -170,9 +171,9 @@ def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -
 
 
 @compiled
-def settle(y: Array, event: Event, modes: Indices, P: Record, S: Record, C: Record) -> bool:
-    """y after the event, including any impact, and the modes in which the motion continues; False beyond Painleve's
-    limit."""
+def settle(y: Array, event: Event, chosen: Indices, P: Record, S: Record, C: Record) -> bool:
+    """y after the event, including any impact, and the modes in which the motion continues, into
+    chosen; False beyond Painleve's limit."""
     kind, contact = event
     if kind == ROCKS:
         rocked(y, P, C)
@@ -203,30 +204,30 @@ def settle(y: Array, event: Event, modes: Indices, P: Record, S: Record, C: Reco
                 if kind == decides:
                     options[i, :] = False
                     options[i, mode] = True
-    return choose(y, options, modes, P, S, C)
+    return choose(y, options, chosen, P, S, C)
 
 
-def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Record) -> bool:
-    """Writes the contact modes from now on into modes: none pulls, none penetrates, none exceeds its static friction.
+def choose(y: Array, options: Bools, chosen: Indices, P: Record, S: Record, C: Record) -> bool:
+    """Writes the modes from now on into chosen: none pulls, none penetrates, none exceeds its static friction.
 
     If no combination qualifies, the one with the least violation; False beyond Painleve's limit.
     """
     best, trial, kept, unbalanced = np.inf, S.z, S.new, False  # of the finished step, reused as working space
-    modes[0] = modes[1] = OPEN
+    chosen[:] = OPEN
     for n in range(len(MODES_IN_ORDER)):
-        ball, stem = MODES_IN_ORDER[n, 0], MODES_IN_ORDER[n, 1]
-        if not (options[BALL, ball] and options[STEM, stem]):
+        modes = MODES_IN_ORDER[n, BALL], MODES_IN_ORDER[n, STEM]
+        if not (options[BALL, modes[BALL]] and options[STEM, modes[STEM]]):
             continue
         trial[:] = y
-        let_go(trial, ball, stem, P, S, C)
-        _, w, _ = turn = arrange(trial, NO_ONE, ball, stem, P, C)
-        minor = forces(turn, ball, stem, P, C)
+        let_go(trial, modes, P, S, C)
+        _, w, _ = turn = arrange(trial, NO_ONE, modes, P, C)
+        minor = forces(turn, modes, P, C)
         if minor < LEAST_MINOR:
             unbalanced = True
             continue
-        worst = lacks(w, ball, stem, options, P, C)
+        worst = lacks(w, modes, options, P, C)
         if worst < best:
-            best, modes[0], modes[1] = worst, ball, stem
+            best, chosen[BALL], chosen[STEM] = worst, modes[BALL], modes[STEM]
             kept[:] = trial
         if worst <= SLACK / 2:
             break
@@ -237,18 +238,17 @@ def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Re
     return True
 
 
-def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Bools, P: Record, C: Record) -> float:
+def lacks(w: tuple[float, float, float], modes: Modes, options: Bools, P: Record, C: Record) -> float:
     """The largest violation at either contact: pulling, penetrating, or exceeding static friction."""
     worst = -np.inf
     for i in range(1 + P.stem):
-        mode = ball if i == BALL else stem
         several = options[i, OPEN] + options[i, SLIP] + options[i, STICK] > 1
-        if mode != OPEN:
+        if modes[i] != OPEN:
             worst = max(worst, -C.F[i, 2])
         elif several:
             worst = max(worst, -slip_rate(w, i, 2, C))
-        if mode == STICK and several:
-            worst = max(worst, -spare(i, P, C, ball == OPEN or stem == OPEN))
+        if modes[i] == STICK and several:
+            worst = max(worst, -spare(i, modes, P, C))
     return worst if worst > -np.inf else 0.0
 
 
@@ -262,9 +262,8 @@ def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
     fast = max(abs(C.u[BALL, 2]), abs(C.u[STEM, 2]))
     if not (closed[BALL] and closed[STEM]) or fast > 10 * np.sqrt(P.tolerance):
         return
-    ball = STICK if rests(y, BALL, P, C) else SLIP
-    stem = STICK if rests(y, STEM, P, C) else SLIP
-    forces(arrange(y, NO_ONE, ball, stem, P, C), ball, stem, P, C)
+    modes = STICK if rests(y, BALL, P, C) else SLIP, STICK if rests(y, STEM, P, C) else SLIP
+    forces(arrange(y, NO_ONE, modes, P, C), modes, P, C)
     if min(C.F[BALL, 2], C.F[STEM, 2]) <= 0.0:
         return
     moving(y, BALL, P, C)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import read_only
 from ..types import Array
 
 
@@ -31,8 +32,7 @@ def midpoints(n: int) -> tuple[Array, Array, Array]:
     """cos(eta/2), sin(eta/2) and 1 at the midpoints of n equal parts of [0, pi]: (n,) each, read-only."""
     half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
     found = np.cos(half), np.sin(half), np.ones(n)
-    for part in found:
-        part.flags.writeable = False
+    read_only(*found)
     return found
 
 

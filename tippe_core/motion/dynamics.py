@@ -39,6 +39,7 @@ from ..types import Array, Vector
 from . import at
 from .elimination import solve_linear
 from .friction import bounds, push
+from .kinds import Modes
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 
 SLOW = 0.01  # ((gR)^1/2)
@@ -51,9 +52,9 @@ Turning: TypeAlias = tuple[Vector, Vector, float]  # e, w, L . e
 
 
 @compiled
-def carried(ball: int, stem: int) -> int:
+def carried(modes: Modes) -> int:
     """The closed contacts in these modes: 0 none, 1 the ball, 2 the stem, 3 both."""
-    return (1 if ball != OPEN else 0) + (2 if stem != OPEN else 0)
+    return (1 if modes[BALL] != OPEN else 0) + (2 if modes[STEM] != OPEN else 0)
 
 
 def cross(x: Vector, y: Vector) -> Vector:
@@ -90,7 +91,7 @@ def locate_contacts(e: Vector, w: Vector, P: Record, C: Record) -> None:
 
 
 @compiled
-def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) -> Turning:
+def arrange(y: Array, slowest: int, modes: Modes, P: Record, C: Record) -> Turning:
     """Writes into C the positions and slip velocities of the contacts, and v and z of G, with closed contacts on the
     table."""
     e, w, L3 = turning(y, P)
@@ -99,18 +100,18 @@ def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) 
     G[0], G[1], G[2], G[3] = y[at.VX], y[at.VY], y[at.VZ], y[at.Z]
     ux, uy = 0.0, 0.0
     if slowest != NO_ONE:
-        speed, carried = np.exp(min(y[at.LOG_U], LOG_FAST)), cross(w, row(C.rho, slowest))
+        speed, turns = np.exp(min(y[at.LOG_U], LOG_FAST)), cross(w, row(C.rho, slowest))
         ux, uy = speed * np.cos(y[at.BETA]), speed * np.sin(y[at.BETA])
-        G[0], G[1] = ux - carried[0], uy - carried[1]
-    if ball != OPEN or stem != OPEN:
-        first, mode = (BALL, ball) if ball != OPEN else (STEM, stem)
-        carried = cross(w, row(C.rho, first))
-        G[2], G[3] = -carried[2], -C.rho[first, 2]
-        if mode == STICK and slowest == NO_ONE:
-            G[0], G[1] = -carried[0], -carried[1]
+        G[0], G[1] = ux - turns[0], uy - turns[1]
+    if carried(modes):
+        first = BALL if modes[BALL] != OPEN else STEM
+        turns = cross(w, row(C.rho, first))
+        G[2], G[3] = -turns[2], -C.rho[first, 2]
+        if modes[first] == STICK and slowest == NO_ONE:
+            G[0], G[1] = -turns[0], -turns[1]
     for i in range(1 + P.stem):
-        carried = cross(w, row(C.rho, i))
-        C.u[i, 0], C.u[i, 1], C.u[i, 2] = G[0] + carried[0], G[1] + carried[1], G[2] + carried[2]
+        turns = cross(w, row(C.rho, i))
+        C.u[i, 0], C.u[i, 1], C.u[i, 2] = G[0] + turns[0], G[1] + turns[1], G[2] + turns[2]
         C.height[i] = G[3] + C.rho[i, 2]
     if slowest != NO_ONE:  # with full precision
         C.u[slowest, 0], C.u[slowest, 1] = ux, uy
@@ -142,26 +143,25 @@ def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
     return F[part] + cross(w_dot, row(C.rho, i))[part]
 
 
-def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
+def unknowns(w: Vector, modes: Modes, P: Record, C: Record) -> int:
     """Sets up the columns of all unknowns and returns their number."""
     n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING)
     rolls = -P.delta * w[0] / w_h, -P.delta * w[1] / w_h
     for i in range(1 + P.stem):
-        mode = ball if i == BALL else stem
-        if mode == SLIP:
+        if modes[i] == SLIP:
             ux, uy = C.u[i, 0], C.u[i, 1]
             k, t = push(P.law, ux * ux + uy * uy, w[2])
             n = column(C, n, i, 2, (-k * ux, -k * uy, 1.0), (rolls[0], rolls[1], -t))
-        elif mode == STICK:
+        elif modes[i] == STICK:
             n = column(C, n, i, 2, (0.0, 0.0, 1.0), (rolls[0], rolls[1], 0.0))
             n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
             n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
-            if P.law.pivots and (ball == OPEN or stem == OPEN):
+            if P.law.pivots and carried(modes) < 3:
                 n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     return n
 
 
-def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
+def forces(turn: Turning, modes: Modes, P: Record, C: Record) -> float:
     """Writes the contact forces and torques and the accelerations into C, after arrange().
 
     Returns the least principal minor of du_z'/dN for the slipping contacts; it is <= 0 beyond Painleve's limit.
@@ -171,9 +171,9 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
     drag = -P.drag * w[0], -P.drag * w[1], -P.drag * w[2]
     free = angular(drag, e, P)
     free = free[0] + k * L3 * e_dot[0], free[1] + k * L3 * e_dot[1], free[2] + k * L3 * e_dot[2]
-    if ball + stem == SLIP:
-        return alone(turn, drag, free, BALL if ball == SLIP else STEM, P, C)
-    n, minor = unknowns(w, ball, stem, P, C), 1.0
+    if modes[BALL] + modes[STEM] == SLIP:
+        return alone(turn, drag, free, BALL if modes[BALL] == SLIP else STEM, P, C)
+    n, minor = unknowns(w, modes, P, C), 1.0
     for i in range(1 + P.stem):
         turns, swings = cross(w, row(C.rho_dot, i)), cross(free, row(C.rho, i))
         for axis in range(3):
@@ -184,13 +184,13 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
         for r in range(n):
             C.matrix[r, j] = component(C, F, w_dot, C.owner[r], C.part[r])
         i, part = C.owner[j], C.part[j]
-        if part == 2 and (ball if i == BALL else stem) == SLIP:
+        if part == 2 and modes[i] == SLIP:
             minor = min(minor, C.matrix[j, j])
         C.right[j] = -(free[2] + STEADY * w[2]) if part == 3 else -C.free[i, part] - 2 * STEADY * C.u[i, part]
         if part == 2:
             C.right[j] -= STEADY * STEADY * C.height[i]
-    both = ball != OPEN and stem != OPEN
-    if both and ball == STICK and stem == STICK:
+    both = carried(modes) == 3
+    if both and modes[BALL] == modes[STEM] == STICK:
         least_along_the_line(C)
         solve_linear(C.matrix, C.right, n)
     else:
@@ -205,7 +205,7 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
             C.M[i, axis] += size * (C.columns[j, 3 + axis] - at[axis])
             C.v_dot[axis] += size * C.columns[j, axis]
             C.L_dot[axis] += size * C.columns[j, 3 + axis]
-    if both and ball == STICK and stem == STICK:
+    if both and modes[BALL] == modes[STEM] == STICK:
         share_along_the_line(P, C)
     w_dot = angular((C.L_dot[0], C.L_dot[1], C.L_dot[2]), e, P)
     for axis in range(3):
@@ -266,23 +266,23 @@ def slip_rate(w: Vector, i: int, part: int, C: Record) -> float:
     return C.v_dot[part] + cross(w_dot, row(C.rho, i))[part] + cross(w, row(C.rho_dot, i))[part]
 
 
-def time_scale(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
+def time_scale(modes: Modes, w_z: float, P: Record, C: Record) -> float:
     """dt/dtau: the product of |u|/(|u| + SLOW) over the contacts that may come to stick. For a patch that also spins,
     |u|^2 is replaced by |u|^2 + (radius w_z)^2."""
     g = 1.0
     if P.law.mu_s > 0.0:
         spin = P.law.radius * w_z
         for i in range(1 + P.stem):
-            if (ball if i == BALL else stem) == SLIP:
+            if modes[i] == SLIP:
                 speed = np.sqrt(C.u[i, 0] ** 2 + C.u[i, 1] ** 2 + spin * spin)
                 g *= speed / (speed + SLOW)
     return g
 
 
-def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
+def rates(y: Array, slowest: int, modes: Modes, P: Record, C: Record, out: Array) -> float:
     """Writes dy/dtau into out; returns what forces() returns."""
-    e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
-    minor = forces(turn, ball, stem, P, C)
+    e, w, L3 = turn = arrange(y, slowest, modes, P, C)
+    minor = forces(turn, modes, P, C)
     px, py, pz, pw, w3 = y[at.PX], y[at.PY], y[at.PZ], y[at.PW], L3 / P.I3
     ox, oy, oz = (w[0] - w3 * e[0]) / 2, (w[1] - w3 * e[1]) / 2, (w[2] - w3 * e[2]) / 2  # half that of the frame
     out[at.PX], out[at.PY] = ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz
@@ -294,7 +294,7 @@ def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, ou
     out[at.CHI], out[at.LX], out[at.LY], out[at.LZ] = w3, C.L_dot[0], C.L_dot[1], C.L_dot[2]
     out[at.VX], out[at.VY], out[at.X], out[at.Y] = C.v_dot[0], C.v_dot[1], C.G[0], C.G[1]
     out[at.TIME], out[at.HEAT], out[at.VZ], out[at.Z] = 1.0, heat, C.v_dot[2], C.G[2]
-    g = time_scale(ball, stem, w[2], P, C)
+    g = time_scale(modes, w[2], P, C)
     if g != 1.0:
         for j in range(16):
             out[j] *= g

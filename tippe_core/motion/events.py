@@ -10,9 +10,9 @@ from ..paper.search import fallen
 from ..types import Array, Number
 from . import at, contacts
 from .dynamics import carried, turning
-from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event
+from .kinds import BALANCES, HALTS, LEAVES, NONE, RIM, ROCKS, SLIPS, STANDS_UP, STARTS, TOUCHES, Event, Modes
 from .poses import continue_angles
-from .records import BALL, OPEN, STEM, Record
+from .records import BALL, OPEN, STEM, Record, modes_of
 from .standing import leaning, lies
 from .stepper import at_share
 
@@ -72,7 +72,7 @@ def watch(W: Record, P: Record, slowest: int, x: float) -> None:
     """Computes the guards at the fraction x of the step."""
     C = W.contacts
     at_share(W.step, x, W.step.at)
-    contacts.guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
+    contacts.guards(W.step.at, slowest, modes_of(W), W.floor, P, W.step, C, W.guards)
 
 
 def height_or_guard(x: float, W: Record, P: Record, slowest: int, event: Event, touches: bool) -> float:
@@ -95,9 +95,9 @@ def crossing(W: Record, P: Record, slowest: int, event: Event, low: float, high:
 @compiled
 def happens(W: Record, P: Record, log: Array, event: Event, flies: bool) -> bool:
     """Records the event in the log and sets the modes after it; returns whether the motion ends there."""
-    y, C, ball, stem, (kind, i) = W.y, W.contacts, W.modes[BALL], W.modes[STEM], event
+    y, C, before, (kind, i) = W.y, W.contacts, modes_of(W), event
     if ALONE[kind] != NONE:
-        logged(W, log, ALONE[kind], ball, stem)
+        logged(W, log, ALONE[kind], before)
         return True
     W.begins = 1
     if kind == TOUCHES and i == STEM:
@@ -105,41 +105,39 @@ def happens(W: Record, P: Record, log: Array, event: Event, flies: bool) -> bool
     goes_on = contacts.settle(y, event, W.modes, P, W.step, C)
     continue_angles(y, W.angles)
     if not goes_on:
-        W.modes[BALL], W.modes[STEM] = ball, stem
-        left_ball = OPEN if event == (LEAVES, BALL) else ball
-        left_stem = OPEN if event == (LEAVES, STEM) else stem
-        logged(W, log, change(ball, stem, left_ball, left_stem, event), ball, stem)
-        logged(W, log, PAINLEVE, ball, stem)
+        W.modes[BALL], W.modes[STEM] = before
+        left = before if kind != LEAVES else (OPEN, before[STEM]) if i == BALL else (before[BALL], OPEN)
+        logged(W, log, change(before, left, event), before)
+        logged(W, log, PAINLEVE, before)
         return True
     ends, (e, w, _) = False, turning(y, P)
     if kind == ROCKS and W.modes[STEM] != OPEN:
         ends = leaning(e, w)[1] <= 0.0 or lies(P, (P.b, P.h, P.q), e, w)
-    name = STANDS_UPRIGHT if ends else change(ball, stem, W.modes[BALL], W.modes[STEM], event)
+    name = STANDS_UPRIGHT if ends else change(before, modes_of(W), event)
     if e[2] < P.rim:
         name, ends = RIM_TOUCHES, True
     ends = ends or (name == LIFTS_OFF and not flies)
     if ends:
-        W.modes[BALL], W.modes[STEM] = ball, stem
-    logged(W, log, name, W.modes[BALL], W.modes[STEM])
+        W.modes[BALL], W.modes[STEM] = before
+    logged(W, log, name, modes_of(W))
     if W.events >= len(log) // 2 and not ends:
-        logged(W, log, TOO_MANY_EVENTS, W.modes[BALL], W.modes[STEM])
+        logged(W, log, TOO_MANY_EVENTS, modes_of(W))
         return True
     return ends
 
 
 @compiled
-def logged(W: Record, log: Array, name: int, ball: int, stem: int) -> None:
+def logged(W: Record, log: Array, name: int, modes: Modes) -> None:
     """Adds an event to the log."""
-    enter(W, log, W.y[at.TIME], name, carried(ball, stem))
+    enter(W, log, W.y[at.TIME], name, carried(modes))
     W.events += 1
-    W.summary.hops += name == LIFTS_OFF
 
 
 @compiled
 def noted(W: Record, log: Array, name: int, t: float) -> None:
     """Adds to the log what changes nothing, as long as that leaves room for the events."""
     if W.logged - W.events < len(log) // 2 - 2:
-        enter(W, log, t, name, carried(W.modes[BALL], W.modes[STEM]))
+        enter(W, log, t, name, carried(modes_of(W)))
 
 
 def enter(W: Record, log: Array, t: float, name: int, supports: int) -> None:
@@ -151,8 +149,7 @@ def enter(W: Record, log: Array, t: float, name: int, supports: int) -> None:
 
 def lands(W: Record, log: Array, event: Event) -> None:
     """Adds to the log how a start that moves into the table lands, after its impact."""
-    ball, stem = W.modes
-    logged(W, log, change(OPEN, OPEN, ball, stem, event), ball, stem)
+    logged(W, log, change((OPEN, OPEN), modes_of(W), event), modes_of(W))
 
 
 def first(log: Any, name: int) -> float:
@@ -168,9 +165,9 @@ def touched(W: Record, log: Array) -> None:
 
 
 @compiled
-def change(ball_before: int, stem_before: int, ball: int, stem: int, event: Event) -> int:
+def change(modes_before: Modes, modes: Modes, event: Event) -> int:
     """The name of the change of modes after an event."""
-    before, after, (kind, i) = carried(ball_before, stem_before), carried(ball, stem), event
+    before, after, (kind, i) = carried(modes_before), carried(modes), event
     if before == 0:
         return LANDS_ON_STEM if after >= 2 or (after == 0 and kind == TOUCHES and i == STEM) else LANDS
     if before == after or after == 3:

@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from ..compiled import compiled
-from ..errors import TopError, finite
+from ..errors import TopError, positive
 from ..types import Number
 
 COULOMB, VISCOUS, SMOOTHED, CONTENSOU = range(4)
@@ -53,10 +53,7 @@ class _Friction:
         return np.array([self.k(one, omega_n) for one in square])
 
     def _positive(self, name: str, zero: bool = False) -> None:
-        value = finite(name, getattr(self, name))
-        if value < 0 or (value == 0 and not zero):
-            raise TopError(name, value, f"{name} {'>=' if zero else '>'} 0")
-        object.__setattr__(self, name, value)
+        object.__setattr__(self, name, positive(name, getattr(self, name), zero))
 
 
 @dataclass(frozen=True)
@@ -200,7 +197,6 @@ class Contensou(_Friction):
 
 
 Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb | Contensou
-LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 
 @compiled

@@ -18,7 +18,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import TopError, checked, single
+from ..errors import TopError, checked
 from ..paper import equations as eq
 from ..paper.constants import State, versines
 from ..paper.top import Top
@@ -49,8 +49,6 @@ def grip(top: Top, state: State) -> tuple[State, float]:
     TopError
         for anything but a Top and a State, and for a State in flight
     """
-    single("top", top, Top)
-    single("state", state, State)
     if state.z is not None and state.z > (least := 1 - top.a * np.cos(state.theta)) + CLOSED:
         raise TopError("z", state.z, "z <= {most:.10g}", "In flight it touches nothing.", code="in-flight", most=least)
     a, I1, I3 = top.a, top.I1, top.I3

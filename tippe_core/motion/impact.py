@@ -140,7 +140,7 @@ def give_impulse(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
 
 def moving(y: Array, i: int, P: Record, C: Record) -> Array:
     """(u, w_z) of contact i; the positions of the contacts go into C."""
-    _, w, _ = arrange(y, NO_ONE, OPEN, OPEN, P, C)
+    _, w, _ = arrange(y, NO_ONE, (OPEN, OPEN), P, C)
     return np.array([C.u[i, 0], C.u[i, 1], C.u[i, 2], w[2]])
 
 

@@ -17,7 +17,8 @@ from . import at
 from .contacts import margin
 from .dynamics import rates, time_scale, turning
 from .elimination import decompose, substitute
-from .records import BALL, NO_ONE, SLIP, STEM, Record
+from .kinds import Modes
+from .records import NO_ONE, SLIP, Record, modes_of
 from .stepper import STAGES, stage
 
 IMPLICIT_ORDER = 5
@@ -62,12 +63,12 @@ DIFFERENCE = 1e-8  # ((gR)^1/4): times the root of the slip, the change of v for
 TOLERANCE = 5e-9  # the least tolerance of an implicit step
 
 
-def slowness(w_z: float, ball: int, stem: int, P: Record, C: Record) -> tuple[float, float]:
+def slowness(w_z: float, modes: Modes, P: Record, C: Record) -> tuple[float, float]:
     """The least slip speed, including that of the spin, of the contacts that slip, and the largest k N, after
     forces()."""
     least, k_N = np.inf, 0.0
     for i in range(1 + P.stem):
-        if (ball if i == BALL else stem) == SLIP:
+        if modes[i] == SLIP:
             u = np.hypot(C.u[i, 0], C.u[i, 1])
             least = min(least, np.hypot(u, P.law.radius * w_z))
             if u > 0.0:
@@ -78,19 +79,19 @@ def slowness(w_z: float, ball: int, stem: int, P: Record, C: Record) -> tuple[fl
 def is_stiff(W: Record, P: Record, h: float) -> bool:
     """Whether stability would limit the steps of stepper.py, after a step of length h to step.new, whose slip it keeps
     in W.slip."""
-    C, ball, stem = W.contacts, W.modes[BALL], W.modes[STEM]
+    C, modes = W.contacts, modes_of(W)
     w_z = turning(W.step.new, P)[1][2]
-    least, k_N = slowness(w_z, ball, stem, P, C)
+    least, k_N = slowness(w_z, modes, P, C)
     W.slip = least
     return (
         least < CREEPING_SLIP
-        and h * (1.0 if W.implicit else time_scale(ball, stem, w_z, P, C)) * k_N * (1 + 1 / P.I1) > STIFF
+        and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * k_N * (1 + 1 / P.I1) > STIFF
     )
 
 
-def rates_in_time(z: Array, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
+def rates_in_time(z: Array, modes: Modes, P: Record, C: Record, out: Array) -> float:
     """rates(), as dz/dt."""
-    minor = rates(z, NO_ONE, ball, stem, P, C, out)
+    minor = rates(z, NO_ONE, modes, P, C, out)
     g = out[at.TIME]
     for i in range(16):
         out[i] /= g
@@ -99,16 +100,16 @@ def rates_in_time(z: Array, ball: int, stem: int, P: Record, C: Record, out: Arr
 
 def differentiate(W: Record, P: Record) -> None:
     """Writes dz/dtau at step.z into step.K[0], and J, column by column, into step.J."""
-    S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
-    rates_in_time(S.z, ball, stem, P, C, S.K[0])
+    S, C, modes = W.step, W.contacts, modes_of(W)
+    rates_in_time(S.z, modes, P, C, S.K[0])
     w = turning(S.z, P)[1]
-    slip = slowness(w[2], ball, stem, P, C)[0]
+    slip = slowness(w[2], modes, P, C)[0]
     small = DIFFERENCE * np.sqrt(slip)
     S.at[:] = S.z
     for n in range(len(FEEDS)):
         i = FEEDS[n]
         S.at[i] += small if i > at.PW else small / (1 + abs(w[0]) + abs(w[1]) + abs(w[2]))
-        rates_in_time(S.at, ball, stem, P, C, S.K[1])
+        rates_in_time(S.at, modes, P, C, S.K[1])
         for j in range(16):
             S.J[j, n] = (S.K[1, j] - S.K[0, j]) / (S.at[i] - S.z[i])
         S.at[i] = S.z[i]
@@ -117,7 +118,7 @@ def differentiate(W: Record, P: Record) -> None:
 def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
     """Computes a step of length h from step.z, after differentiate(), and its end into step.new: its error relative to
     the allowed one, and the least margin()."""
-    S, C, ball, stem, near = W.step, W.contacts, W.modes[BALL], W.modes[STEM], np.inf
+    S, C, modes, near = W.step, W.contacts, modes_of(W), np.inf
     U, J, matrix, right, n = S.U, S.J, S.matrix, S.right, len(FEEDS)
     for r in range(n):
         for c in range(n):
@@ -128,8 +129,8 @@ def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
         f = S.K[min(s, 1)]
         if s > 0:
             stage(S.z, U, A_IJ[s], s, 1.0, S.at)
-            minor = rates_in_time(S.at, ball, stem, P, C, f)
-            near = min(near, margin(S.at, minor, ball, stem, P, C))
+            minor = rates_in_time(S.at, modes, P, C, f)
+            near = min(near, margin(S.at, minor, modes, P, C))
         stage(f, U, C_IJ[s], s, 1 / h, S.at)
         for r in range(n):
             right[r] = S.at[FEEDS[r]]
@@ -142,12 +143,12 @@ def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
         for r in range(n):
             U[s, FEEDS[r]] = right[r]
     stage(S.z, U, A_IJ[PARTS], PARTS, 1.0, S.new)
-    minor = rates(S.new, NO_ONE, ball, stem, P, C, S.K[STAGES])
+    minor = rates(S.new, NO_ONE, modes, P, C, S.K[STAGES])
     polynomial(S)
     square = 0.0
     for i in range(16):
         square += (U[PARTS - 1, i] / S.scale[i]) ** 2
-    return np.sqrt(square / 16), min(near, margin(S.new, minor, ball, stem, P, C))
+    return np.sqrt(square / 16), min(near, margin(S.new, minor, modes, P, C))
 
 
 def polynomial(S: Record) -> None:

@@ -5,24 +5,24 @@ import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from dataclasses import MISSING, dataclass, fields
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..classify import LAST, judged
-from ..errors import TopError, common_shape, has_arrays, numbers, single
+from ..errors import TopError, common_shape, has_arrays, numbers, of_kind, positive, read_only, single
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
 from . import at, events, preparing
 from .dynamics import carried
-from .friction import LAWS
+from .friction import Friction
 from .kinds import STARTS, TOUCHES
 from .nudge import beside, checked_nudge
 from .periodic import run_all
 from .poses import sample_at
-from .records import LOG, OPEN, SAMPLE, Record, new
+from .records import LOG, OPEN, SAMPLE, Record, modes_of, new
 from .run import ENDED, MORE
 from .summary import begin, energy_at
 
@@ -169,9 +169,8 @@ def slide_many(
     how = _How(preparing.checked_rtol(rtol), None if nudge is None else checked_nudge(nudge),
                preparing.checked_losses(rolling_resistance, air_drag), preparing.flies(landing),
                threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None)  # fmt: skip
-    rims = np.array(None, object) if edge is None else _rims(edge)
-    parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS),
-             numbers("t_end", t_end), rims]  # fmt: skip
+    parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, Friction),
+             numbers("t_end", t_end), _rims(edge)]  # fmt: skip
     shape = common_shape("t_end", "shapes of top, state, friction, t_end and edge that broadcast", *parts)
     cells = list(zip(*(np.broadcast_to(part, shape).ravel().tolist() for part in parts), strict=True))
     if executor is not None:
@@ -181,8 +180,10 @@ def slide_many(
         return _many(_all(cells, how, progress, threads).reshape(shape))
 
 
-def _rims(edge: ArrayLike) -> NDArray[np.object_]:
-    """An array of (radius, height, rounding)."""
+def _rims(edge: ArrayLike | None) -> NDArray[np.object_]:
+    """An array of (radius, height, rounding), or of None."""
+    if edge is None:
+        return np.array(None, object)
     rows = numbers("edge", edge)
     if rows.ndim == 0 or rows.shape[-1] not in (2, 3):
         raise TopError("edge", edge, "(radius, height, rounding)", code="wrong-kind")
@@ -193,12 +194,15 @@ def _objects(items: Iterable[Any], shape: tuple[int, ...]) -> NDArray[np.object_
     return np.fromiter(items, object).reshape(shape)
 
 
-def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
-    """An array of instances of the kinds, with the code of the TopError in the place of each that is not possible."""
+def _cells(name: str, given: Any, kind: Any) -> NDArray[np.object_]:
+    """An array of instances of the kind, or kinds, with the code of the TopError in the place of each that is not
+    possible."""
+    kinds = get_args(kind) or (kind,)
     if isinstance(given, np.ndarray) or (isinstance(given, list | tuple) and not hasattr(given, "_fields")):
         cells = np.array(given, dtype=object)
         for cell in cells.flat:
-            single(name, cell, *kinds)
+            of_kind(name, cell, kind)
+            single(name, cell)
         return cells
     if isinstance(given, kinds) and not has_arrays(given):
         return _objects([given], ())
@@ -272,8 +276,7 @@ def _compute(row: Any, cell: tuple[Any, ...], how: _How) -> None:
         row["reason"] = codes[0]
         return
     top, state, friction, t_end, edge = cell
-    if t_end < 0:
-        raise TopError("t_end", t_end, "t_end >= 0")
+    positive("t_end", t_end, zero=True)
     preparing.check_balance(top, friction)
     P = preparing.problem(top, friction, preparing.checked_edge(edge), how.losses, how.rtol)
     _run_to_end(row, state, P, t_end, how)
@@ -291,8 +294,8 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
     begin(W, P, log, (1 - LAST) * t_end)
     if goes_on and event[0] == TOUCHES:
         events.lands(W, log, event)
-    if goes_on and not carried(*W.modes) and not how.flies and event[0] == STARTS:
-        events.logged(W, log, events.LIFTS_OFF, OPEN, OPEN)
+    if goes_on and not carried(modes_of(W)) and not how.flies and event[0] == STARTS:
+        events.logged(W, log, events.LIFTS_OFF, (OPEN, OPEN))
     elif goes_on:
         status = MORE
         while status == MORE and W.steps < CELL_STEPS and not (how.stop and how.stop.is_set()):
@@ -306,14 +309,15 @@ def _run_to_end(row: Any, state: State, P: Record, t_end: float, how: _How) -> N
         if last == events.STANDS_UPRIGHT
         else {1 << i: support for i, support in enumerate(events.SUPPORTS)}.get(T.seen, "")
     )
-    sample_at(W, P, OPEN, OPEN, here)
-    flight = [np.nan] * 2 if carried(*W.modes) else [here.com[2], here.velocity[2]]
+    sample_at(W, P, (OPEN, OPEN), here)
+    flight = [np.nan] * 2 if carried(modes_of(W)) else [here.com[2], here.velocity[2]]
     row["state"] = [here.theta, *here.omega, here.phi, here.psi, *here.com[:2], *here.velocity[:2], *flight]
     row["time_90"], row["time_stem"] = (
         events.first(entries, events.PASSES_90),
         events.first(entries, events.FIRST_TOUCH),
     )
-    row["F_z_least"], row["hops"] = T.F_z_least if np.isfinite(T.F_z_least) else np.nan, T.hops
+    row["F_z_least"] = T.F_z_least if np.isfinite(T.F_z_least) else np.nan
+    row["hops"] = np.count_nonzero(entries["name"] == events.LIFTS_OFF)
     row["heat"], row["energy_error"] = W.y[at.HEAT], energy_at(W, P) + W.y[at.HEAT] - E
     if not (P.law.pivots or P.drag > 0 or P.delta > 0):
         row["C_J_drift"] = T.drift / (abs(T.C_J) or 1.0)
@@ -324,6 +328,5 @@ def _many(found: Any) -> Many:
     """Many, from the RESULTs."""
     parts = {name: np.array(found[name]) for name in (*NUMBERS, "hops", "end", "reason")}
     states = States(*(np.array(part) for part in np.moveaxis(found["state"], -1, 0)))
-    for part in (*parts.values(), flew := np.array(parts["hops"] > 0), *states):
-        part.flags.writeable = False
+    read_only(*parts.values(), flew := np.array(parts["hops"] > 0), *states)
     return Many(theta_end=states.theta, state_end=states, flew=flew, **parts)

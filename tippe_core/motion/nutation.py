@@ -30,7 +30,7 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Complex, Scalars
 from .crowding import Crowding, crowded, crowding, eta_halves
-from .phase import Ends, Pose, pose, split_phase, tilts, v_and_m
+from .phase import Ends, Pose, half_sigma_rate, pose, split_phase, tilts, v_and_m
 from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
 from .trajectory import PASSES_90, checked_times
 
@@ -91,8 +91,8 @@ class Nutation(ABC):
         """The same to full precision, at cos(kappa/2) and sin(kappa/2)."""
 
     @abstractmethod
-    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
+    def _slopes(self, v: Array, m: Array) -> tuple[Scalars, Scalars]:
+        """phi_dot (1 + c) - w3 - offset/v and phi_dot (1 - c) + w3 - offset/m at v, m, (n,)."""
 
     @abstractmethod
     def _omega(self, place: Nodes | Pose) -> Array:
@@ -184,12 +184,19 @@ class Nutation(ABC):
             _, kappa = of_time(self._nodes(n).dt_deta[None], self._nodes(n).dkappa_deta[None])
         return kappa
 
+    def _sigma_rates(self, nodes: Nodes) -> Array:
+        """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
+        _, _, v, m, rate, *_ = nodes
+        (minus, plus), ends = self._slopes(v, m), self.ends
+        return np.stack([half_sigma_rate(v, ends.v1, ends.v2, ends.upright, rate, minus),
+                         half_sigma_rate(m, ends.m1, ends.m2, ends.inverted, rate, plus)])  # fmt: skip
+
     @cached_property
     def _orientation(self) -> Orientation:
         n = self._time.n
         while True:
             nodes = self._nodes(n)
-            rates = self._sigma_rates(nodes.v, nodes.m, nodes.dt_dkappa) * nodes.dkappa_deta
+            rates = self._sigma_rates(nodes) * nodes.dkappa_deta
             coefficients = cosine_coefficients(np.concatenate([nodes.dt_deta[None], rates]))
             if resolved(coefficients):
                 dt_deta, minus, plus = coefficients

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled
-from ..types import Array, Complex, Number
+from ..types import Array, Complex, Number, Scalars
 from .series import BLOCK, part_turn, sine, sums
 
 
@@ -170,11 +170,13 @@ def theta_dot(cos_half: float, sin_half: float, v: float, m: float, dt_dkappa: f
     return width * sin_half * cos_half / (dt_dkappa * np.sqrt(v * m))
 
 
-def half_sigma_rate(x: float, x1: float, x2: float, offset: float, dt_dkappa: float, slope: float) -> float:
-    """d sigma/dkappa: half of dt/dkappa (offset/x + slope), minus the abrupt change at the pole, +- (x1 x2)^1/2/(2x).
+def half_sigma_rate(x: Array, x1: float, x2: float, offset: float, dt_dkappa: Array, slope: Scalars) -> Array:
+    """d sigma/dkappa (n,): half of dt/dkappa (offset/x + slope), minus the abrupt change at the pole,
+    +- (x1 x2)^1/2/(2x).
 
     For sigma_- x = v and phi_dot (1 + c) - w3 = offset/v + slope; for sigma_+ x = m and
     phi_dot (1 - c) + w3 = offset/m + slope.
     """
-    peak = 0.0 if x <= 0 else (dt_dkappa * offset - np.copysign(np.sqrt(x1 * x2), offset)) / x
+    with np.errstate(divide="ignore", invalid="ignore"):
+        peak = np.where(x <= 0, 0.0, (dt_dkappa * offset - np.copysign(np.sqrt(x1 * x2), offset)) / x)
     return (peak + dt_dkappa * slope) / 2

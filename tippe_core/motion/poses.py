@@ -5,8 +5,9 @@ import numpy as np
 from ..compiled import compiled
 from ..types import Array
 from . import at
-from .dynamics import Turning, arrange
-from .records import BALL, NO_ONE, OPEN, SLIP, Record
+from .dynamics import Turning, arrange, carried
+from .kinds import Modes
+from .records import NO_ONE, OPEN, SLIP, Record
 
 PULLS = 2e-10  # (Mg): smaller values are rounding
 AIR, SLIPPING, ROLLING = range(3)
@@ -31,7 +32,7 @@ def tilt_of(y: Array) -> float:
 
 
 def record(
-    y: Array, t: float, turning: Turning, angles: Array, ball: int, stem: int, P: Record, C: Record, out: Record
+    y: Array, t: float, turning: Turning, angles: Array, modes: Modes, P: Record, C: Record, out: Record
 ) -> None:
     """The SAMPLE at y, after forces()."""
     e, w, _ = turning
@@ -51,8 +52,8 @@ def record(
     omega[0] = w[0] * c + w[1] * s
     omega[1], omega[2] = cos_theta * across + sin_theta * w[2], cos_theta * w[2] - sin_theta * across
     velocity[0], velocity[1], velocity[2] = C.G[0] * c + C.G[1] * s, C.G[1] * c - C.G[0] * s, C.G[2]
-    rolls = ball != SLIP and stem != SLIP
-    out.regime = AIR if ball == OPEN and stem == OPEN else ROLLING if rolls else SLIPPING
+    rolls = SLIP not in modes
+    out.regime = AIR if carried(modes) == 0 else ROLLING if rolls else SLIPPING
     rho_x, rho_y, N = P.a * e[0], P.a * e[1], 0.0
     ux = uy = Fx = Fy = 0.0
     if out.regime != AIR:
@@ -60,7 +61,7 @@ def record(
         for i in range(1 + P.stem):
             N += C.F[i, 2]
         for i in range(1 + P.stem):
-            if (ball if i == BALL else stem) != OPEN:
+            if modes[i] != OPEN:
                 share = C.F[i, 2] / N if N != 0.0 else 1.0
                 Fx, Fy = Fx + C.F[i, 0], Fy + C.F[i, 1]
                 rho_x, rho_y = rho_x + share * C.rho[i, 0], rho_y + share * C.rho[i, 1]
@@ -72,7 +73,7 @@ def record(
 
 
 @compiled
-def sample_at(W: Record, P: Record, ball: int, stem: int, out: Record) -> None:
+def sample_at(W: Record, P: Record, modes: Modes, out: Record) -> None:
     """The SAMPLE at W.y in these modes, with the forces in W.contacts."""
-    turning = arrange(W.y, NO_ONE, ball, stem, P, W.contacts)
-    record(W.y, W.y[at.TIME], turning, W.angles, ball, stem, P, W.contacts, out)
+    turning = arrange(W.y, NO_ONE, modes, P, W.contacts)
+    record(W.y, W.y[at.TIME], turning, W.angles, modes, P, W.contacts, out)

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, finite, numbers, single
+from ..errors import TopError, checked, finite, numbers, positive
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
@@ -30,11 +30,7 @@ def checked_rtol(rtol: float) -> float:
 
 def checked_losses(rolling_resistance: float, air_drag: float) -> tuple[float, float]:
     """The coefficients of the losses as floats, or a TopError if one is negative."""
-    given = {"rolling_resistance": rolling_resistance, "air_drag": air_drag}
-    for name, loss in given.items():
-        if finite(name, loss) < 0:
-            raise TopError(name, loss, f"{name} >= 0")
-    return float(rolling_resistance), float(air_drag)
+    return positive("rolling_resistance", rolling_resistance, zero=True), positive("air_drag", air_drag, zero=True)
 
 
 def flies(landing: str) -> bool:
@@ -80,7 +76,7 @@ def strongest_friction(top: Top) -> float:
     float
         inf for a = 0
     """
-    a, I1, _ = single("top", top, Top).numbers
+    a, I1, _ = top.numbers
     if a == 0:
         return np.inf
     # with p = q/a and J = I1 p^2, q = 1 or, so that nothing overflows, a: the minimum of
@@ -150,7 +146,7 @@ def state_of(W: Record, P: Record) -> State:
     """The State at W.y, which beginning() takes; without z and vz. On the vertical axis 1' is along the horizontal part
     of omega, as it is just after the pole."""
     here = new(SAMPLE)
-    sample_at(W, P, OPEN, OPEN, here)
+    sample_at(W, P, (OPEN, OPEN), here)
     theta, phi, psi, (w1, w2, w3), v = here.theta, here.phi, here.psi, here.omega, complex(*here.velocity[:2])
     if theta in (0.0, np.pi):
         pole = np.cos(theta)
@@ -186,7 +182,7 @@ def lower(P: Record, theta: float) -> int:
 @compiled
 def on_table(W: Record, P: Record, i: int) -> None:
     """Sets v_z and z in W.y so that contact i is on the table."""
-    arrange(W.y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
+    arrange(W.y, NO_ONE, (SLIP, OPEN) if i == BALL else (OPEN, SLIP), P, W.contacts)
     W.y[at.VZ], W.y[at.Z] = W.contacts.G[2], W.contacts.G[3]
 
 
@@ -207,7 +203,7 @@ def place(W: Record, P: Record, state: State) -> Event:
     if state.z is not None:
         C = W.contacts
         W.y[at.Z], W.y[at.VZ] = state.z, state.vz or 0.0
-        arrange(W.y, NO_ONE, OPEN, OPEN, P, C)
+        arrange(W.y, NO_ONE, (OPEN, OPEN), P, C)
         if (above := float(C.height[i])) < -CLOSED:
             raise TopError("z", state.z, "z >= {least:.10g}", least=state.z - above)
         closed = [j for j in (i, 1 - i)[: 1 + P.stem] if C.height[j] <= CLOSED and C.u[j, 2] <= CLOSED]

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, checked, numbers, single
+from ..errors import TopError, checked, numbers
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array
@@ -21,7 +21,7 @@ from . import at as of_y
 from . import preparing
 from .contacts import CLOSED, settle
 from .dynamics import turning
-from .friction import LAWS, Friction
+from .friction import Friction
 from .kinds import TOUCHES
 from .records import Record
 
@@ -66,9 +66,6 @@ def pushed(
         for bad input, an impulse of more than 1000 M (gR)^1/2, a point below the table, and friction so strong that no
         normal force balances it on the ball
     """
-    single("top", top, Top)
-    single("state", state, State)
-    single("friction", friction, *LAWS)
     push, point = _vector("impulse", impulse), _vector("at", at)
     if (size := float(np.linalg.norm(push))) > STRONGEST:
         raise TopError("impulse", size, "at most {most:g} in size", code="too-large", most=STRONGEST)

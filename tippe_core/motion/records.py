@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from .kinds import HALTS
+from .kinds import HALTS, Modes
 
 Record: TypeAlias = Any  # an np.record of one of these types
 
@@ -24,6 +24,11 @@ def kind(**fields: object) -> Any:
 def new(kind: Any) -> Record:
     """A record of this type, all zeros."""
     return np.zeros(1, kind)[0]
+
+
+def modes_of(W: Record) -> Modes:
+    """The present modes of ball and stem."""
+    return W.modes[BALL], W.modes[STEM]
 
 
 OPEN, SLIP, STICK = range(3)  # modes of a contact
@@ -63,7 +68,7 @@ STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7
             timed="?")  # fmt: skip
 
 # The summary of a motion, summary.py.
-SUMMARY = kind(since=float, C_J=float, drift=float, touched="i8", hops="i8", F_z_least=float, least=float, most=float,
+SUMMARY = kind(since=float, C_J=float, drift=float, touched="i8", F_z_least=float, least=float, most=float,
                seen="i8", slips="i8")  # fmt: skip
 
 # An entry of the log of a motion: a time; what happened, by its place in events.EVENTS; and carried() after it.

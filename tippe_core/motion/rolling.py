@@ -11,17 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, single
+from ..errors import TopError, checked
 from ..paper import differences
 from ..paper import equations as eq
-from ..paper.constants import EXACT, Constants, Exact, State, versines
+from ..paper.constants import EXACT, Constants, Exact, State, exact_place
 from ..paper.differences import Place
 from ..paper.poles import Floats, bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
 from .nutation import Nodes, Nutation
-from .phase import Ends, Pose, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
+from .phase import Ends, Pose, nearer_pole, pole_factor, theta_dot, v_and_m
 from .track import Path, Track, path
 from .trajectory import Trajectory, checked_times
 
@@ -99,10 +99,9 @@ class Rolling(Nutation):
 
     @checked
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
-        self.top = single("top", top, Top)
+        self.top = top
         with localcontext(EXACT):
             if isinstance(start, State):
-                single("state", start, State)
                 curve, (inner, outer), here = _from_state(top, constants, start)
             else:
                 curve, (inner, outer) = _from_constants(top, constants, start, well)
@@ -153,8 +152,8 @@ class Rolling(Nutation):
                         "So near to it, or where f1 or f3 nearly vanishes in the well, the nutation takes almost for "
                         "ever; change E a little.", code="energy-not-resolved")  # fmt: skip
 
-    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return rolling_sigma_rates(v, m, dt_dkappa, self._curve, self.ends)
+    def _slopes(self, v: Array, m: Array) -> tuple[Array, Array]:
+        return rolling_slopes(v, m, self._curve, self.ends)
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
@@ -250,20 +249,18 @@ def rolling_omega(
 
 
 @compiled
-def rolling_sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends) -> Array:
-    """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
-    rates = np.empty((2, len(v)))
+def rolling_slopes(v: Array, m: Array, curve: Floats, ends: Ends) -> tuple[Array, Array]:
+    """As half_sigma_rate() takes them, (n,) each."""
+    minus, plus = np.empty(len(v)), np.empty(len(v))
     for i in range(len(v)):
         side, x, d = nearer_pole(v[i], m[i], ends)
         c, s2 = 1 - v[i], v[i] * m[i]
         w3 = eq.omega3(c, s2, curve.K_R, curve.top)
         C = pole_slope(x, np.sqrt(eq.f3_2(c, s2, curve.top)), side * w3, seen_from(side, curve.top))
         B = d + x * C
-        slope_v = C if v[i] <= m[i] else (B - ends.upright) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
-        slope_m = C if m[i] < v[i] else (B - ends.inverted) / m[i]
-        rates[0, i] = half_sigma_rate(v[i], ends.v1, ends.v2, ends.upright, dt_dkappa[i], slope_v - w3)
-        rates[1, i] = half_sigma_rate(m[i], ends.m1, ends.m2, ends.inverted, dt_dkappa[i], slope_m + w3)
-    return rates
+        minus[i] = (C if v[i] <= m[i] else (B - ends.upright) / v[i]) - w3  # (w2 s - d)/(1 - c) - w3
+        plus[i] = (C if m[i] < v[i] else (B - ends.inverted) / m[i]) + w3
+    return minus, plus
 
 
 @compiled
@@ -306,21 +303,20 @@ def contact_and_force(
 
 
 def _from_constants(top: Top, constants: Constants | None, start: str, well: int) -> tuple[ExactCurve, Well]:
-    if not isinstance(start, str) or start not in ("inner", "outer"):
+    if start not in ("inner", "outer"):
         raise TopError("start", start, '"inner" | "outer" | State', code="wrong-kind")
-    if not isinstance(constants, Constants):
+    if constants is None:
         raise TopError("constants", constants, "Constants", code="wrong-kind")
     curve = ExactCurve(top, Exact.of(constants, top))
     found = wells(curve)
-    if isinstance(well, bool) or not isinstance(well, (int, np.integer)) or well not in range(len(found)):
+    if well not in range(len(found)):
         raise TopError("well", well, f"0 <= well <= {len(found) - 1}")
     return curve, found[well]
 
 
 def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[ExactCurve, Well, Decimal]:
     exact = Exact.of_state(state, top)
-    v, m = (float(x) for x in versines(state.theta))
-    here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
+    _, here, _ = exact_place(state.theta)
     spins = state.theta_dot, state.omega2, state.omega3
     rolling = eq.rolling_velocity(float(here), np.sin(state.theta), *spins, top)
     for name, value in zip(("vx", "vy"), rolling, strict=True):

@@ -13,7 +13,7 @@ from .impact import halted
 from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
 from .kinds import HALTS, LEAVES, NONE, SLIPS, Event
 from .poses import continue_angles, record
-from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
+from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record, modes_of
 from .stepper import STAGES, within
 from .summary import summarize, watch_tilt
 
@@ -39,7 +39,7 @@ def run(
     lists the events."""
     limit = W.steps + steps
     while True:
-        if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and is_point(P.law):
+        if hands_over and modes_of(W) == (STICK, OPEN) and is_point(P.law):
             return HANDS_OVER
         event = follow(W, P, log, times, rows, end, limit)
         if event[0] == OVER or event[0] == MORE:
@@ -53,13 +53,13 @@ def follow(W: Record, P: Record, log: Array, times: Array, rows: Array, end: flo
     """Integrates until the first event, which it returns, or (OVER or MORE, BALL). Samples at the times go into
     rows."""
     y, C, S = W.y, W.contacts, W.step
-    ball, stem = W.modes[BALL], W.modes[STEM]
+    modes = modes_of(W)
     if W.begins:
         W.begins, W.rated, W.stiff, W.slowest = 0, 0, 0, NO_ONE
         W.h = FIRST_STEP
-        arrange(y, NO_ONE, OPEN, OPEN, P, C)
+        arrange(y, NO_ONE, (OPEN, OPEN), P, C)
         W.floor[0], W.floor[1] = min(C.height[0], 0.0), min(C.height[1], 0.0)
-        contacts.guards(y, NO_ONE, ball, stem, W.floor, P, S, C, W.guards)
+        contacts.guards(y, NO_ONE, modes, W.floor, P, S, C, W.guards)
         event = contacts.first_negative(W.guards)
         if event[0] != NONE:
             return event
@@ -149,7 +149,7 @@ def change_variables(W: Record, P: Record) -> int:
     y, S, C, slowest, least = W.y, W.step, W.contacts, NO_ONE, np.inf
     S.z[:] = y
     if is_point(P.law):
-        arrange(y, NO_ONE, W.modes[BALL], W.modes[STEM], P, C)
+        arrange(y, NO_ONE, modes_of(W), P, C)
         for i in range(1 + P.stem):
             speed = np.exp(W.polar[0]) if i == W.slowest else np.hypot(C.u[i, 0], C.u[i, 1])
             if W.modes[i] == SLIP and speed < least:
@@ -213,7 +213,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
 
 def try_step(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]:
     """Computes the stages of a step of length h, and its end into step.new: its error, and the least margin()."""
-    S, C, ball, stem, near = W.step, W.contacts, W.modes[BALL], W.modes[STEM], np.inf
+    S, C, modes, near = W.step, W.contacts, modes_of(W), np.inf
     for s in range(1 if W.rated else 0, STAGES + 1):
         if s == 0:
             S.at[:] = S.z
@@ -222,8 +222,8 @@ def try_step(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float
         if W.steady:
             minor = stepper.steady_rates(W, P, slowest, s)
         else:
-            minor = rates(S.at, slowest, ball, stem, P, C, S.K[s])
-        near = min(near, contacts.margin(S.at, minor, ball, stem, P, C))
+            minor = rates(S.at, slowest, modes, P, C, S.K[s])
+        near = min(near, contacts.margin(S.at, minor, modes, P, C))
     S.new[:], W.rated = S.at, 1
     return stepper.error(S.K, S.scale, h), near
 
@@ -232,10 +232,10 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     """Sets y from step.at at the time t, with continuous angles and p normalized; returns the earlier slip speed of the
     slowest contact."""
     y, C, S = W.y, W.contacts, W.step
-    ball, stem = W.modes[BALL], W.modes[STEM]
+    modes = modes_of(W)
     before = np.exp(S.z[at.LOG_U]) if slowest != NO_ONE else np.inf
     if P.law.radius > 0.0:
-        _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
+        _, w, _ = arrange(y, NO_ONE, modes, P, C)
         before = np.inf
         for i in range(1 + P.stem):
             if W.modes[i] == SLIP:
@@ -243,7 +243,7 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
     size = 1 / np.sqrt(S.at[at.PX] ** 2 + S.at[at.PY] ** 2 + S.at[at.PZ] ** 2 + S.at[at.PW] ** 2)
     for i in range(4):
         S.at[i] *= size
-    arrange(S.at, slowest, ball, stem, P, C)
+    arrange(S.at, slowest, modes, P, C)
     W.slowest, W.polar[0], W.polar[1] = slowest, S.at[at.LOG_U], S.at[at.BETA]
     y[:] = S.at
     y[at.TIME] = t
@@ -254,26 +254,26 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
 
 def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
     """(HALTS, i) if friction stops the slowest contact i, (SLIPS, i) if its slip goes through 0, or NONE."""
-    y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
+    y, C, modes = W.y, W.contacts, modes_of(W)
     if slowest != NO_ONE:
         speed = W.step.new[at.LOG_U]
         if speed < min(np.log(before), contacts.LOG_STILL):  # near the limit of friction it may still stick
-            if contacts.may_stick(y, ball, stem, slowest, P, C):
+            if contacts.may_stick(y, modes, slowest, P, C):
                 halted(y, slowest, P, C)
                 return HALTS, slowest
             if speed < 2 * contacts.LOG_STILL:
                 return SLIPS, slowest
     elif P.law.radius > 0.0:
-        _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
+        _, w, _ = arrange(y, NO_ONE, modes, P, C)
         for i in range(1 + P.stem):
             speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2])
             if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
                 left = speed * (y[at.TIME] - W.step.z[at.TIME]) / (before - speed)  # time until it vanishes
                 if left * left > max(P.tolerance, NEARLY_STILL):  # it may as well grow again
                     continue
-                holds = contacts.may_stick(y, ball, stem, i, P, C)
+                holds = contacts.may_stick(y, modes, i, P, C)
                 if holds or speed < contacts.NUDGE / 4:
-                    rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
+                    rates(y, NO_ONE, modes, P, C, W.step.K[0])
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
                     halted(y, i, P, C)
@@ -284,9 +284,9 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
 def sample(W: Record, P: Record, z: Array, slowest: int, t: float, rows: Array) -> None:
     """Adds a row for z."""
     C, k = W.contacts, W.samples
-    ball, stem = W.modes[BALL], W.modes[STEM]
-    turn = arrange(z, slowest, ball, stem, P, C)
-    forces(turn, ball, stem, P, C)
+    modes = modes_of(W)
+    turn = arrange(z, slowest, modes, P, C)
+    forces(turn, modes, P, C)
     continue_angles(z, W.angles)
-    record(z, t, turn, W.angles, ball, stem, P, C, rows[k])
+    record(z, t, turn, W.angles, modes, P, C, rows[k])
     W.samples = k + 1

@@ -10,16 +10,16 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, checked, finite, single
+from ..errors import TopError, checked, finite
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array
 from . import at, events, preparing
 from .dynamics import carried
-from .friction import LAWS, Friction
+from .friction import Friction
 from .kinds import NONE, STARTS, TOUCHES
 from .poses import REGIMES, sample_at
-from .records import LOG, OPEN, SAMPLE, SLIP
+from .records import BALL, LOG, OPEN, SAMPLE, SLIP, STEM, modes_of
 from .rolling_part import RollingPart
 from .run import ENDED, HANDS_OVER, MORE, run
 from .summary import begin
@@ -144,8 +144,7 @@ class Sliding:
         landing: str = "plastic", edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
         profile: ArrayLike | None = None,
     ) -> None:  # fmt: skip
-        self.top, self.friction = single("top", top, Top), single("friction", friction, *LAWS)
-        single("state", state, State)
+        self.top, self.friction = top, friction
         preparing.check_balance(top, friction)
         losses = preparing.checked_losses(rolling_resistance, air_drag)
         self._body = None if profile is None else preparing.checked_profile(profile)
@@ -161,13 +160,13 @@ class Sliding:
         self._sinks: tuple[int, float] | None = None  # the row, and the time, at which another part touches
         (kind, self._stands_on), goes_on = preparing.start(W, P, state)
         begin(W, P, self._log, np.inf)
-        self._first = carried(*W.modes) if goes_on else 1 + self._stands_on
+        self._first = carried(modes_of(W)) if goes_on else 1 + self._stands_on
         if not goes_on:
-            events.logged(W, self._log, events.PAINLEVE, OPEN, OPEN)
+            events.logged(W, self._log, events.PAINLEVE, (OPEN, OPEN))
         elif kind == TOUCHES:
             events.lands(W, self._log, (kind, self._stands_on))
         elif self._first == 0 and kind == STARTS:
-            events.logged(W, self._log, events.LIFTS_OFF, OPEN, OPEN)
+            events.logged(W, self._log, events.LIFTS_OFF, (OPEN, OPEN))
         self.ended = not (goes_on and (self._first or self._flies or kind == NONE))
 
     def until(self, times: ArrayLike, progress: Progress = None) -> Trajectory:
@@ -191,9 +190,7 @@ class Sliding:
         TopError
             for times that decrease, and where the equations cannot be followed
         """
-        t = checked_times(times)
-        if np.any(np.diff(t) < 0):
-            raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
+        t = checked_times(times, forward=True)
         if t[0] < self._last:
             raise TopError("times", times, "{first:.10g} to {last:.10g}", code="outside-times", first=self._last,
                            last=np.inf)  # fmt: skip
@@ -239,7 +236,7 @@ class Sliding:
             if status == HANDS_OVER and self._rolls(times, rows):
                 return
             if status == MORE and W.steps >= MOST_STEPS:
-                events.logged(W, log, events.TOO_MANY_STEPS, *W.modes)
+                events.logged(W, log, events.TOO_MANY_STEPS, modes_of(W))
                 self.ended = True
                 return
 
@@ -266,7 +263,7 @@ class Sliding:
             modes[self._stands_on] = SLIP
         W.contacts.F[:] = 0.0
         W.contacts.F[self._stands_on, 2] = float(event == events.STANDS_UPRIGHT)
-        sample_at(W, self._P, modes[0], modes[1], rows[0])
+        sample_at(W, self._P, (modes[BALL], modes[STEM]), rows[0])
         rows["slip"] = 0.0
         return rows
 

@@ -24,15 +24,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, single
+from ..errors import TopError, checked
 from ..paper import equations as eq
-from ..paper.constants import EXACT, State, exact_top, versines
+from ..paper.constants import EXACT, State, exact_place, exact_top
 from ..paper.search import zero
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import exact_zero
 from ..types import Array
 from .nutation import Nodes, Nutation
-from .phase import Ends, Pose, half_sigma_rate, nearer_pole, theta_dot, v_and_m
+from .phase import Ends, Pose, nearer_pole, theta_dot, v_and_m
 from .trajectory import Trajectory, checked_times
 
 
@@ -62,9 +62,7 @@ def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
     TopError
         for bad input, and very close to motions that take infinitely long to leave an unstable steady precession
     """
-    t = checked_times(times)
-    if np.any(np.diff(t) < 0):
-        raise TopError("times", times, "times[i] <= times[i + 1]", "None is less than the one before.", code="falling")
+    t = checked_times(times, forward=True)
     gliding = Gliding(top, state)
     lifts = gliding.lift_off
     moved = gliding(t[t - t[0] <= lifts])
@@ -102,13 +100,11 @@ class Gliding(Nutation):
 
     @checked
     def __init__(self, top: Top, state: State) -> None:
-        self.top, self.start = single("top", top, Top), single("state", state, State)
+        self.top, self.start = top, state
         self._inward = state.theta_dot < 0
-        v, m = (float(x) for x in versines(state.theta))
         with localcontext(EXACT):
             t, w1, w2, w3 = exact_top(top), *(Decimal(w) for w in (state.theta_dot, state.omega2, state.omega3))
-            v = Decimal(v) if v <= m else 2 - Decimal(m)
-            here, s2 = 1 - v, v * (2 - v)
+            v, here, s2 = exact_place(state.theta)
             L3 = t.I3 * w3
             L_z, e = eq.L_z(here, s2.sqrt(), w2, w3, t), eq.two_E_smooth(s2, w1, w2, v, t)
             inner, outer = turning_cosines(t, e, L_z, L3, here, still=state.theta_dot == 0)
@@ -130,8 +126,9 @@ class Gliding(Nutation):
                         "So near to it the nutation takes almost for ever; change the start a little.",
                         code="start-not-resolved")  # fmt: skip
 
-    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return gliding_sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.ends)
+    def _slopes(self, v: Array, m: Array) -> tuple[float, float]:
+        slope = self._B_slope - self.start.omega3
+        return slope, -slope
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
@@ -197,16 +194,6 @@ def gliding_omega(
         w[i, 1] = B / s if s > 0 else 0.0
         w[i, 2] = w3
     return w
-
-
-@compiled
-def gliding_sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends) -> Array:
-    """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
-    rates = np.empty((2, len(v)))
-    for i in range(len(v)):
-        rates[0, i] = half_sigma_rate(v[i], ends.v1, ends.v2, ends.upright, dt_dkappa[i], B_slope - w3)
-        rates[1, i] = half_sigma_rate(m[i], ends.m1, ends.m2, ends.inverted, dt_dkappa[i], w3 - B_slope)
-    return rates
 
 
 @compiled

@@ -11,7 +11,7 @@ from ..paper.search import zero
 from ..types import Array
 from . import at
 from .dynamics import rates
-from .records import BALL, STEM, Record
+from .records import Record, modes_of
 
 A, B, E3, E5 = (np.ascontiguousarray(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
 A_DENSE, D = np.ascontiguousarray(DOP853.A_EXTRA), np.ascontiguousarray(DOP853.D)
@@ -59,14 +59,14 @@ def factor(found: float, order: int) -> float:
 def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, float]:
     """The steady beta near that of step.at, at which u' is parallel to u; the rates at which beta relaxes to it and at
     which log|u| grows."""
-    S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
+    S, C, modes = W.step, W.contacts, modes_of(W)
     beta, out, near = S.at[at.BETA], S.K[15], 1e-4
     for _ in range(3):
         S.at[at.BETA] = beta + near
-        rates(S.at, slowest, ball, stem, P, C, out)
+        rates(S.at, slowest, modes, P, C, out)
         beside = out[at.BETA]
         S.at[at.BETA] = beta
-        rates(S.at, slowest, ball, stem, P, C, out)
+        rates(S.at, slowest, modes, P, C, out)
         attracts = (out[at.BETA] - beside) / near
         if attracts <= 0.0 or abs(out[at.BETA]) > attracts:
             return S.at[at.BETA], 0.0, out[at.LOG_U]
@@ -80,7 +80,7 @@ def steady_rates(W: Record, P: Record, slowest: int, s: int) -> float:
     """Writes the rates at step.at into step.K[s], where beta is kept steady: those at its steady value."""
     S = W.step
     S.at[at.BETA] = steady_direction(W, P, slowest)[0]
-    minor = rates(S.at, slowest, W.modes[BALL], W.modes[STEM], P, W.contacts, S.K[s])
+    minor = rates(S.at, slowest, modes_of(W), P, W.contacts, S.K[s])
     S.K[s, at.BETA] = 0.0
     return minor
 
@@ -96,7 +96,7 @@ def densely(W: Record, P: Record, slowest: int, h: float) -> None:
         if W.steady:  # otherwise beta diverges, and log|u| with it
             steady_rates(W, P, slowest, STAGES + 1 + s)
         else:
-            rates(S.at, slowest, W.modes[BALL], W.modes[STEM], P, W.contacts, K[STAGES + 1 + s])
+            rates(S.at, slowest, modes_of(W), P, W.contacts, K[STAGES + 1 + s])
     for i in range(16):
         moved = S.new[i] - S.z[i]
         F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])

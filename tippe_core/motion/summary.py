@@ -9,7 +9,7 @@ from . import at
 from .dynamics import carried, kinetic, turning
 from .events import NOTED, PASSES_90, noted, noted_values, touched
 from .poses import tilt_of
-from .records import BALL, OPEN, STEM, STICK, Record
+from .records import OPEN, SLIP, STEM, Record, modes_of
 from .stepper import at_end, at_share, densely, when, within
 
 
@@ -32,14 +32,14 @@ def begin(W: Record, P: Record, log: Array, since: float) -> None:
 def summarize(W: Record, P: Record, N: float) -> None:
     """Updates the summary at the end of a step, with the normal force N there."""
     T, y, (_, _, L3) = W.summary, W.y, turning(W.y, P)
-    ball, stem = W.modes[BALL], W.modes[STEM]
-    if ball != OPEN or stem != OPEN:
+    modes = modes_of(W)
+    if carried(modes):
         T.F_z_least = min(T.F_z_least, N)
     if not T.touched:
         T.drift = max(T.drift, abs(y[at.LZ] - P.a * L3 - T.C_J))
     if y[at.TIME] >= T.since:
-        T.seen |= 1 << carried(ball, stem)
-        if ball not in (OPEN, STICK) or stem not in (OPEN, STICK) or (ball == OPEN and stem == OPEN):
+        T.seen |= 1 << carried(modes)
+        if SLIP in modes or not carried(modes):
             T.slips = 1
 
 

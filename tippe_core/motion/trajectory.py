@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, checked, finite, numbers
+from ..errors import TopError, checked, finite, numbers, read_only
 from ..paper import equations as eq
 from ..paper.constants import State
 from ..paper.top import Top
@@ -126,9 +126,7 @@ class Trajectory:
             object.__setattr__(self, "heat", np.zeros(len(self.t)))
         if not self.supports and len(self.t):
             object.__setattr__(self, "supports", ((float(self.t[0]), "ball"),))
-        for value in vars(self).values():
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
+        read_only(*vars(self).values())
 
     def __len__(self) -> int:
         return len(self.t)
@@ -226,12 +224,14 @@ class Trajectory:
         return sum(self.ledger[:-1], np.zeros(len(self.t)))
 
 
-def checked_times(times: ArrayLike) -> Array:
-    """times as a new (n,) float array, or a TopError."""
+def checked_times(times: ArrayLike, forward: bool = False) -> Array:
+    """times as a new (n,) float array, or a TopError; forward: they must not decrease."""
     t = numbers("times", times)
     if t.ndim != 1 or not t.size:
         raise TopError("times", times, "a one-dimensional, not empty array of finite numbers, in (R/g)^1/2",
                        code="no-times")  # fmt: skip
+    if forward and np.any(np.diff(t) < 0):
+        raise TopError("times", times, "times[i] <= times[i + 1]", "None is less than the one before.", code="falling")
     return t
 
 

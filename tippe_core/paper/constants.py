@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import Compared, TopError, common_shape, finite, has_arrays, numbers, set_arrays, single
+from ..errors import Compared, TopError, finite, has_arrays, set_arrays, single
 from ..types import Array, Scalars
 from . import equations as eq
 from .equations import AnyTop
@@ -52,15 +52,7 @@ class Constants(Compared):
     E: Scalars
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if np.ndim(value) == 0 and not isinstance(value, (list, tuple)):
-                value = finite(field.name, value) + 0.0  # -0 becomes 0
-            else:
-                value = numbers(field.name, value) + 0.0
-                value.flags.writeable = False
-            object.__setattr__(self, field.name, value)
-        common_shape("constants", "shapes of K_J, K_R and E that broadcast together", self.K_J, self.K_R, self.E)
+        set_arrays("constants", self, finite=True)
 
     def two_E_prime(self, top: Top) -> Scalars:
         """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33), in MgR. Correctly rounded for scalars."""
@@ -152,8 +144,6 @@ class Exact:
 
     @classmethod
     def of(cls, constants: Constants, top: Top) -> Self:
-        if any(np.ndim(x) for x in (constants.K_J, constants.K_R, constants.E)):
-            raise TopError("constants", constants, "Constants(float, float, float)", code="wrong-kind")
         with localcontext(EXACT):
             K_J, K_R, E = (Decimal(float(x)) for x in (constants.K_J, constants.K_R, constants.E))
             return cls(nonzero(K_J), nonzero(K_R), eq.two_E_prime(E, K_J, K_R, exact_top(top)))
@@ -161,12 +151,9 @@ class Exact:
     @classmethod
     def of_state(cls, state: State, top: Top) -> Self:
         """From a State, by (30), (31) and (33)."""
-        single("state", state, State)
-        v, m = versines(state.theta)
+        single("state", state)
         with localcontext(EXACT):
-            t = exact_top(top)
-            v = Decimal(float(v)) if v <= m else 2 - Decimal(float(m))
-            c, s2 = 1 - v, v * (2 - v)
+            t, (v, c, s2) = exact_top(top), exact_place(state.theta)
             w1, w2, w3 = Decimal(state.theta_dot), Decimal(state.omega2), Decimal(state.omega3)
             K_J, K_R = eq.K_J(c, s2.sqrt(), w2, w3, t), eq.K_R(c, s2, w3, t)
             e = eq.two_E_prime_of_motion(w1 * w1, eq.U(v, c, s2, w2 * w2, t), c, t)
@@ -184,6 +171,13 @@ def versines(theta: ArrayLike) -> tuple[Array, Array]:
     theta = np.asarray(theta, dtype=float)
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
     return v, np.where(theta == np.pi, 0.0, m)
+
+
+def exact_place(theta: float) -> tuple[Decimal, Decimal, Decimal]:
+    """1 - c, c and s^2 in the context EXACT, from versines()."""
+    v, m = (Decimal(float(x)) for x in versines(theta))
+    v = v if v <= m else 2 - m
+    return v, 1 - v, v * (2 - v)
 
 
 def exact_versine(theta: float) -> Decimal:

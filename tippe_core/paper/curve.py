@@ -1,13 +1,12 @@
 """theta_dot^2 = f(theta), equation (36), and the angular velocities as functions of theta."""
 
 from decimal import localcontext
-from typing import overload
 
 import numpy as np
 
 from ..compiled import compiled
-from ..errors import checked
-from ..types import Array, Indices, Scalars
+from ..errors import checked_many
+from ..types import Array, Indices, Like, Number, Scalars
 from . import equations as eq
 from .constants import EXACT, Constants, Exact, exact_versine, versines
 from .poles import Floats, bracket_near, pole_offsets
@@ -17,12 +16,8 @@ from .wells import ExactCurve
 _CANCELLED = 1e-5  # relative to the terms of (36): a smaller sum has lost more than five of sixteen figures
 
 
-@overload
-def f1_squared(theta: float, top: Top) -> float: ...
-@overload
-def f1_squared(theta: Array, top: Top) -> Array: ...
-@checked
-def f1_squared(theta: Scalars, top: Top) -> Scalars:
+@checked_many
+def f1_squared(theta: Like, top: Top) -> Like:
     """f1^2 = I1 + 1 + a^2 - 2 a cos(theta), (35).
 
     Parameters
@@ -40,12 +35,8 @@ def f1_squared(theta: Scalars, top: Top) -> Scalars:
     return eq.f1_2(np.cos(theta), top)
 
 
-@overload
-def f2_squared(theta: float, top: Top) -> float: ...
-@overload
-def f2_squared(theta: Array, top: Top) -> Array: ...
-@checked
-def f2_squared(theta: Scalars, top: Top) -> Scalars:
+@checked_many
+def f2_squared(theta: Like, top: Top) -> Like:
     """f2^2 = I1 + (I1/I3) sin(theta)^2 + (cos(theta) - a)^2, (34).
 
     Parameters
@@ -63,12 +54,8 @@ def f2_squared(theta: Scalars, top: Top) -> Scalars:
     return eq.f2_2(np.cos(theta), np.sin(theta) ** 2, top)
 
 
-@overload
-def f3_squared(theta: float, top: Top) -> float: ...
-@overload
-def f3_squared(theta: Array, top: Top) -> Array: ...
-@checked
-def f3_squared(theta: Scalars, top: Top) -> Scalars:
+@checked_many
+def f3_squared(theta: Like, top: Top) -> Like:
     """f3^2 = I3 + sin(theta)^2 + (I3/I1)(cos(theta) - a)^2, (32).
 
     Parameters
@@ -86,12 +73,8 @@ def f3_squared(theta: Scalars, top: Top) -> Scalars:
     return eq.f3_2(np.cos(theta), np.sin(theta) ** 2, top)
 
 
-@overload
-def omega3(theta: float, top: Top, constants: Constants) -> Scalars: ...
-@overload
-def omega3(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
-def omega3(theta: Scalars, top: Top, constants: Constants) -> Scalars:
+@checked_many
+def omega3(theta: Like, top: Top, constants: Constants) -> Like:
     """omega_3 = K_R/f3, (31).
 
     Parameters
@@ -116,12 +99,8 @@ def omega3(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     return eq.omega3(np.cos(theta), np.sin(theta) ** 2, constants.K_R, top)
 
 
-@overload
-def omega2(theta: float, top: Top, constants: Constants) -> Scalars: ...
-@overload
-def omega2(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
-def omega2(theta: Scalars, top: Top, constants: Constants) -> Scalars:
+@checked_many
+def omega2(theta: Like, top: Top, constants: Constants) -> Like:
     """omega_2' = [K_J - (I3/I1)(c - a) K_R/f3]/s, (30).
 
     Parameters
@@ -145,7 +124,7 @@ def omega2(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """
     offsets = pole_offsets(top, constants.K_J, constants.K_R)
     rows = np.broadcast_arrays(*versines(theta), constants.K_R, *offsets)
-    value = omega2_on(top.numbers, *(np.array(x, dtype=float).ravel() for x in rows))
+    value: Number = omega2_on(top.numbers, *(np.array(x, dtype=float).ravel() for x in rows))
     return value.reshape(rows[0].shape)[()]
 
 
@@ -161,12 +140,8 @@ def omega2_on(top: TopNumbers, v: Array, m: Array, K_R: Array, upright: Array, i
     return w2
 
 
-@overload
-def f(theta: float, top: Top, constants: Constants) -> Scalars: ...
-@overload
-def f(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
-def f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
+@checked_many
+def f(theta: Like, top: Top, constants: Constants) -> Like:
     """theta_dot^2 = f(theta), (36); negative where no motion is possible.
 
     Parameters
@@ -196,16 +171,12 @@ def f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     return value[()]
 
 
-@overload
-def rounded_f(theta: float, top: Top, constants: Constants) -> Scalars: ...
-@overload
-def rounded_f(theta: Array, top: Top, constants: Constants) -> Array: ...
-def rounded_f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
+def rounded_f(theta: Like, top: Top, constants: Constants) -> Like:
     """f computed in floats only, which is fast; near its zeros the error is the rounding of the terms of (36)."""
     return floats(theta, top, constants)[0][()]
 
 
-def floats(theta: Scalars, top: Top, constants: Constants) -> tuple[Array, Indices]:
+def floats(theta: Scalars, top: Top, constants: Constants) -> tuple[Number, Indices]:
     """f in floats, and the flat indices at which its terms cancel."""
     offsets = pole_offsets(top, constants.K_J, constants.K_R)
     given = [np.asarray(x) for x in (*versines(theta), constants.K_R, constants.two_E_prime(top), *offsets)]

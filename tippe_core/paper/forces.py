@@ -1,11 +1,9 @@
 """The forces at the contact point, equations (37) to (39), as functions of theta."""
 
-from typing import overload
-
 import numpy as np
 
-from ..errors import checked
-from ..types import Array, Scalars, Vector
+from ..errors import checked_many
+from ..types import Like, Scalars, Vector
 from . import equations as eq
 from .constants import Constants, versines
 from .curve import f, omega2, omega3
@@ -20,12 +18,8 @@ def forces_on_curve(theta: Scalars, top: Top, constants: Constants, w1_squared: 
         return eq.force(1 - v, np.sqrt(v * m), np.sqrt(w1_squared), w1_squared, w2, w3, top)
 
 
-@overload
-def normal_force(theta: float, top: Top, constants: Constants) -> Scalars: ...
-@overload
-def normal_force(theta: Array, top: Top, constants: Constants) -> Array: ...
-@checked
-def normal_force(theta: Scalars, top: Top, constants: Constants) -> Scalars:
+@checked_many
+def normal_force(theta: Like, top: Top, constants: Constants) -> Like:
     """F_z = 1 + a (s f'/2 + c f), (37).
 
     Parameters
@@ -50,12 +44,8 @@ def normal_force(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     return forces_on_curve(theta, top, constants, f(theta, top, constants))[2]
 
 
-@overload
-def friction_force(theta: float, top: Top, constants: Constants) -> tuple[Scalars, Scalars]: ...
-@overload
-def friction_force(theta: Array, top: Top, constants: Constants) -> tuple[Array, Array]: ...
-@checked
-def friction_force(theta: Scalars, top: Top, constants: Constants) -> tuple[Scalars, Scalars]:
+@checked_many
+def friction_force(theta: Like, top: Top, constants: Constants) -> tuple[Like, Like]:
     """(F_x, F_y) for theta_dot > 0, (38) and (39); F_x changes sign with theta_dot.
 
     Parameters

@@ -278,16 +278,15 @@ def least_U_of(V: Array, M: Array, top: TopNumbers, K_R: float, offsets: Array) 
 def limits_of(
     top: TopNumbers, K_R: float, offsets: Array, steady: Array, limits: Array, points: int
 ) -> tuple[Array, Array]:
-    """For each of the limits (mu, n) and each K_J: 2E', theta_inner, theta_outer, theta_verge and F_z from limit_of().
-    Then theta and U of the steady precessions, given as rows of x and side."""
+    """For each of the limits (mu, n) and each K_J: 2E', theta_inner, theta_outer, theta_verge and F_z from limit_of(),
+    that of lift-off first, because it bounds the paths of the other. Then theta and U of the steady precessions, given
+    as rows of x and side."""
     paths, found = np.empty((2, points + MORE + 2, 6)), np.empty((len(limits), 5, len(offsets)))
     at_rest = np.empty((2, len(offsets)))
     for i in range(len(offsets)):
         curve, far, x, side = Floats(top, K_R, offsets[i, 0], offsets[i, 1]), np.zeros(2), steady[i, 0], steady[i, 1]
         at_rest[0, i], at_rest[1, i] = angle(x, side), U_near(x, side, curve)
         for j in range(len(limits)):
-            if j > 0 and limits[j - 1, 1] > 0:
-                far[:] = 0  # only the limit of lift-off bounds that of slipping
             columns = limit_of(paths, x, side, points, curve, (limits[j, 0], limits[j, 1]), far, 1e-8)
             for row in range(5):
                 found[j, row, i] = columns[row]

@@ -7,12 +7,12 @@ a -> -a, c -> -c, K_R -> -K_R, and with 2E' smaller by 4a.
 
 from decimal import Decimal, localcontext
 from functools import lru_cache
-from typing import NamedTuple, overload
+from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import checked, finite, numbers
-from ..types import Array, Bools, Number, Scalars
+from ..errors import checked_many, finite, numbers
+from ..types import Array, Bools, Like, Number, Scalars
 from . import equations as eq
 from .constants import EXACT, exact_top
 from .equations import AnyTop
@@ -73,12 +73,8 @@ def two_signs(x: Number, p: Number, q: Number, f3_P: Number, f3: Number) -> Numb
     return (p * f3 - q * f3_P) / x
 
 
-@overload
-def pole_constants(top: Top, K_R: float) -> tuple[float, float]: ...
-@overload
-def pole_constants(top: Top, K_R: Array) -> tuple[Array, Array]: ...
-@checked
-def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
+@checked_many
+def pole_constants(top: Top, K_R: Like) -> tuple[Like, Like]:
     """(K_J at P, K_J at the inverted pole): the values for which the bracket of (36) vanishes at theta = 0 and at pi.
 
     K_J(P) = (I3/I1)(1 - a) K_R/f3(0). Only trajectories with these K_J pass through the poles.
@@ -105,7 +101,7 @@ def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
         K_R = numbers("K_R", K_R)
         return K_J_of_pole(1.0, K_R, top), K_J_of_pole(-1.0, K_R, top)
     upright, inverted = exact_pole_constants(top, Decimal(finite("K_R", K_R)))
-    return float(upright), float(inverted)
+    return float(upright), float(inverted)  # type: ignore[return-value]  # one number is given
 
 
 def K_J_of_pole(side: Number, K_R: Number, top: AnyTop) -> Number:

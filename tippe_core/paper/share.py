@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..compiled import compiled
-from ..errors import TopError, checked, finite
+from ..errors import checked, finite, positive
 from ..types import Array, Scalars
 from .constants import versines
 from .limits import MORE, least_U, limit_of
@@ -46,9 +46,7 @@ def allowed_shares(a: ArrayLike, I1: ArrayLike, I3: ArrayLike, K_R: float, mu_s:
     TopError
         for a K_R or mu_s out of range
     """
-    K_R, mu_s = finite("K_R", K_R), finite("mu_s", mu_s)
-    if mu_s < 0:
-        raise TopError("mu_s", mu_s, "mu_s >= 0")
+    K_R, mu_s = finite("K_R", K_R), positive("mu_s", mu_s, zero=True)
     a, I1, I3 = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in (a, I1, I3)))
     share = np.full(a.shape, np.nan)
     with np.errstate(all="ignore"):

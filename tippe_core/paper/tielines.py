@@ -2,13 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import TopError, checked, finite
-from ..types import Array, Scalars
+from ..errors import checked, finite, numbers, positive, read_only
+from ..types import Array, Like, Number
 from . import equations as eq
 from .constants import versines
 from .limits import least_U_of, limits_of
@@ -60,12 +59,8 @@ class Tielines:
     E_steady: Array
 
 
-@overload
-def limit_energy(top: Top, K_J: float, K_R: float, mu_s: float | None = None) -> float: ...
-@overload
-def limit_energy(top: Top, K_J: Array, K_R: float, mu_s: float | None = None) -> Array: ...
 @checked
-def limit_energy(top: Top, K_J: Scalars, K_R: float, mu_s: float | None = None) -> Scalars:
+def limit_energy(top: Top, K_J: Like, K_R: float, mu_s: float | None = None) -> Like:
     """The largest E (6) with F_z >= 0, and F_h <= mu_s F_z where mu_s is given, on the whole trajectory.
 
     It is for the well around the steady precession of least energy.
@@ -92,8 +87,8 @@ def limit_energy(top: Top, K_J: Scalars, K_R: float, mu_s: float | None = None) 
     TopError
         for anything else, with the name, the value and the allowed range
     """
-    E = tielines(top, K_J, K_R, mu_s).E
-    return E if np.ndim(K_J) else float(E)
+    E: Number = tielines(top, K_J, K_R, mu_s).E
+    return E if np.ndim(K_J) else E.item()
 
 
 @checked
@@ -155,13 +150,10 @@ def lift_off_and_slip_tielines(top: Top, K_J: ArrayLike, K_R: float, mu_s: float
 
 def limited(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]) -> list[Tielines]:
     """One Tielines for each of the limits: None for F_z >= 0 alone, or a value of mu_s."""
-    shape, K_J = np.shape(K_J), np.array(K_J, dtype=float)
-    if not np.all(np.isfinite(K_J)):
-        raise TopError("K_J", float(K_J[~np.isfinite(K_J)].flat[0]), "finite numbers", code="not-finite")
-    K_J, K_R = K_J.ravel(), finite("K_R", K_R)
+    shape, K_J, K_R = np.shape(K_J), numbers("K_J", K_J).ravel(), finite("K_R", K_R)
     for mu in limits:
-        if mu is not None and finite("mu_s", mu) < 0:
-            raise TopError("mu_s", float(mu), "mu_s >= 0")
+        if mu is not None:
+            positive("mu_s", mu, zero=True)
     offsets = np.stack(pole_offsets(top, K_J, K_R), axis=1)
     steady = steady_of_least_energy(top, K_J, K_R, offsets)
     pairs = np.array([(1.0, 0.0) if mu is None else (mu, 1.0) for mu in limits])
@@ -173,9 +165,8 @@ def limited(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]
         by = np.where((F_z > 1e-9) & (mu is not None), "slip", "lift-off")
         by = np.where(np.isnan(e), "no motion", np.where(np.isinf(e), "nothing", by))
         columns = K_J, eq.E_of(e, K_J, K_R, top), inner, outer, verge, by, theta_p, E_p
-        parts = [column.reshape(shape) for column in columns]
-        for part in parts:
-            part.flags.writeable = False
+        parts: list[Number] = [column.reshape(shape) for column in columns]
+        read_only(*parts)
         lines.append(Tielines(*parts))
     return lines
 

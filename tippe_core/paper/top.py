@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
-from ..errors import Compared, TopError, finite, has_arrays, set_arrays, single
+from ..errors import Compared, TopError, finite, has_arrays, positive, set_arrays, single
 from ..types import Number
 
 
@@ -52,8 +52,7 @@ class Top(Compared):
             raise TopError("a", self.a, "a < 1 (in units of R)", "The centre of mass must lie above the contact point.",
                            code="too-high")  # fmt: skip
         for name in ("I1", "I3"):
-            if getattr(self, name) <= 0:
-                raise TopError(name, getattr(self, name), f"{name} > 0 (in MR^2)")
+            positive(name, getattr(self, name), unit=" (in MR^2)")
         if self.I3 > 2 * self.I1 * (1 + 1e-15):
             raise TopError(
                 "I3", self.I3, f"0 < I3 <= 2 I1 = {2 * self.I1:g}",
@@ -68,7 +67,7 @@ class Top(Compared):
     @property
     def numbers(self) -> TopNumbers:
         """a, I1, I3 as floats, for compiled functions. Raises TopError if this is many tops."""
-        single("top", self, Top)
+        single("top", self)
         return TopNumbers(self.a, self.I1, self.I3)
 
 
@@ -97,9 +96,7 @@ class Scales:
 
     def __post_init__(self) -> None:
         for name in ("R", "M", "g"):
-            object.__setattr__(self, name, finite(name, getattr(self, name)))
-            if getattr(self, name) <= 0:
-                raise TopError(name, getattr(self, name), f"{name} > 0 (SI)")
+            object.__setattr__(self, name, positive(name, getattr(self, name), unit=" (SI)"))
 
     @classmethod
     def paper(cls) -> Self:

@@ -57,22 +57,22 @@ export function set(model, name, value) {
 }
 
 // Asks Python for something.
-/** @template W @param {{ asked: W }} model @param {NoInfer<W>} wish */
-export const ask = (model, wish) => set(model, "asked", wish);
+/** @template W @param {{ request: W }} model @param {NoInfer<W>} wish */
+export const ask = (model, wish) => set(model, "request", wish);
 
 // Runs once before the next paint, however often it was called before then.
 /** @param {() => void} run @param {AbortSignal} [life] @returns {Later} */
 export function coalesce(run, life) {
-  let asked = 0;
+  let frame = 0;
   const later = () => {
-    asked ||= requestAnimationFrame(() => {
-      asked = 0;
+    frame ||= requestAnimationFrame(() => {
+      frame = 0;
       run();
     });
   };
   later.cancel = () => {
-    cancelAnimationFrame(asked);
-    asked = 0;
+    cancelAnimationFrame(frame);
+    frame = 0;
   };
   atEnd(life, later.cancel);
   return later;
@@ -81,11 +81,11 @@ export function coalesce(run, life) {
 // Runs once nothing has called it for so long.
 /** @param {() => void} run @param {number} ms @param {AbortSignal} [life] */
 export function debounce(run, ms, life) {
-  let asked = 0;
-  atEnd(life, () => clearTimeout(asked));
+  let timer = 0;
+  atEnd(life, () => clearTimeout(timer));
   return () => {
-    clearTimeout(asked);
-    asked = setTimeout(run, ms);
+    clearTimeout(timer);
+    timer = setTimeout(run, ms);
   };
 }
 

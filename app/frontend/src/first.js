@@ -11,10 +11,10 @@ let isLate = false; // the session came first
 let early = null; // the picture that waits for its model
 
 // The language of the address, otherwise one that the browser prefers: the same choice as the server's.
-/** @param {Record<string, any>} words @param {string | null} asked */
-export function inOneLanguage(words, asked) {
+/** @param {Record<string, any>} words @param {string | null} chosen */
+export function inOneLanguage(words, chosen) {
   const preferred = navigator.languages.map((tag) => tag.split("-")[0].toLowerCase());
-  return words[asked || preferred.find((language) => language in words) || "en"];
+  return words[chosen || preferred.find((language) => language in words) || "en"];
 }
 
 /** @param {Promise<Response>} numbers the file, still loading @param {string} language of the address; empty: the browser's */

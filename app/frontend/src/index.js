@@ -30,7 +30,7 @@ import { renderHead as Head } from "./widgets/head.js";
 import { renderLines as Lines } from "./widgets/lines.js";
 import { renderLook as Look } from "./widgets/look.js";
 import { renderConnection as Connection, renderFailure as Failure } from "./widgets/notices.js";
-import { renderMoments as Moments } from "./widgets/moments.js";
+import { renderEventList as EventList } from "./widgets/event_list.js";
 import { renderPainted as Painted } from "./widgets/painted.js";
 import { renderPaper as Paper } from "./widgets/paper.js";
 import { renderPhone as Phone } from "./widgets/phone.js";
@@ -38,7 +38,7 @@ import { renderShareHead as ShareHead } from "./widgets/share_head.js";
 import { renderSection as SectionView } from "./widgets/section.js";
 import { renderSymbols as Symbols } from "./widgets/symbols.js";
 import { renderTopsMap as TopsMap } from "./widgets/tops_map.js";
-import { renderSaid as Said } from "./widgets/said.js";
+import { renderLiveText as LiveText } from "./widgets/live_text.js";
 import { renderPhoto as Photo } from "./widgets/photo.js";
 
 offerCallbacks();
@@ -48,7 +48,7 @@ window.__tippe = { time: timeOf, tops: topsOf, wear }; // for tests only: there 
 // Panel finds a component by the name of its Python class.
 const components = {
   Address, Button, Checks, Choice, Connection, Copy, Download, Embed, Failure, Field, Film, FilmStage, Fold, Form, Frame, Guide, Head,
-  LabView, LessonView, Lines, Look, MeasuredFile, Menu, Moments, NumberControls, Painted, Paper, Phone, Photo, PlaneView, Said,
+  LabView, LessonView, Lines, Look, MeasuredFile, Menu, EventList, NumberControls, Painted, Paper, Phone, Photo, PlaneView, LiveText,
   SectionView, ShareHead, Steps, Stretch, Surface3D, Symbols, TextFile, Top3D, TopsMap,
 };
 export default { ...Object.fromEntries(Object.entries(components).map(([name, render]) => [name, { render }])), first, letter, site };

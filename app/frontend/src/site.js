@@ -32,7 +32,7 @@ class Site {
     this.room = "lab";
     this.step = "";
     this.look = { dark: null, large: false };
-    this.said = /** @type {any} */ ({});
+    this.wording = /** @type {any} */ ({});
     this.runs = /** @type {any} */ (null); // of the lesson
     /** @type {ReturnType<typeof drawIn>[]} */
     this.parts = [];
@@ -43,7 +43,7 @@ class Site {
   async open(language) {
     const words = (this.words = await read(this.stored.words[language]));
     if (this.stored.lesson) this.runs ??= await read(this.stored.lesson);
-    this.said = {};
+    this.wording = {};
     const lab = { ...words.lab, ...(await this.values(0)) };
     for (const part of this.parts) part.leave();
     this.lesson = null;
@@ -52,8 +52,8 @@ class Site {
     this.element("about").textContent = words.about;
     this.parts = [drawIn("Look", { ...this.look, texts: { language } }, renderLook), drawIn("Head", words.head, renderHead), drawIn("LabView", lab, renderLab)];
     [this.looks, this.head, this.lab] = this.parts.map(({ model }) => model);
-    this.head.on("asked", () => this.ofHead(...this.head.asked));
-    this.lab.on("asked", () => this.ofLab(...this.lab.asked));
+    this.head.on("request", () => this.ofHead(...this.head.request));
+    this.lab.on("request", () => this.ofLab(...this.lab.request));
     this.show(0);
   }
 
@@ -76,7 +76,7 @@ class Site {
     if (this.lesson) return void (this.lesson.state = state);
     const drawn = drawIn("LessonView", { ...lesson, ...this.runs, state }, renderLesson);
     this.lesson = drawn.model;
-    this.lesson.on("asked", () => this.ofLesson(...this.lesson.asked));
+    this.lesson.on("request", () => this.ofLesson(...this.lesson.request));
     this.parts.push(drawn);
   }
 
@@ -95,7 +95,7 @@ class Site {
   }
 
   async ofLab(count, name, value) {
-    this.said = {};
+    this.wording = {};
     if (name === "table") this.table = value;
     else if (name in this.start) this.put(name, value);
     else if (name === "why") {
@@ -108,13 +108,13 @@ class Site {
   put(name, value) {
     const { words, stored: { grid } } = this, { texts } = words.lab;
     if (typeof value !== "number") {
-      this.said = { messages: { [name]: fill(words.no_number, { value }) }, refused: { [name]: value } };
+      this.wording = { messages: { [name]: fill(words.no_number, { value }) }, refused: { [name]: value } };
       return;
     }
     const near = (this.start[name] = nearest(grid[name], value)), say = (number) => written(number, String(number).split(".")[1]?.length ?? 0, texts.decimal);
     const { unit } = texts.inputs[name], after = unit && unit !== "°" ? ` ${unit}` : unit;
-    const said = { value: `${say(value)}${after}`, near: `${say(near)}${after}`, all: grid[name].map(say).join("; ") };
-    if (near !== value) this.said = { remarks: { [name]: fill(words.near, said) } };
+    const wording = { value: `${say(value)}${after}`, near: `${say(near)}${after}`, all: grid[name].map(say).join("; ") };
+    if (near !== value) this.wording = { remarks: { [name]: fill(words.near, wording) } };
   }
 
   // What the Lab's model has at the present start.
@@ -123,13 +123,13 @@ class Site {
     const { start, stored, table, words } = this, key = Object.values(start).join(" ");
     const [state, told] = words.told[key][table], numbers = numbersIn(await unzipped(stored.runs[key]).arrayBuffer());
     for (const name of Object.keys(numbers)) if (table !== "three" && !name.endsWith(table)) numbers[name] = new ArrayBuffer(0);
-    return { ...numbers, told: JSON.stringify(told), state: JSON.stringify({ ...state, ...this.said, answered }) };
+    return { ...numbers, told: JSON.stringify(told), state: JSON.stringify({ ...state, ...this.wording, answered }) };
   }
 }
 
 /** @param {string} text JSON of what is stored */
 export function site(text) {
   const stored = JSON.parse(text);
-  const [only, other] = Object.keys(stored.languages), asked = new URLSearchParams(location.search).get("lang");
-  return new Site(stored).open(other ? inOneLanguage(stored.languages, asked) : only);
+  const [only, other] = Object.keys(stored.languages), request = new URLSearchParams(location.search).get("lang");
+  return new Site(stored).open(other ? inOneLanguage(stored.languages, request) : only);
 }

@@ -4,13 +4,13 @@ import { float32 } from "./data.js";
 // A stand-in for the model that Panel passes to a component: values, with listeners that run when one is set.
 /** @param {Record<string, any>} values @returns {any} */
 export function modelOf(values) {
-  const asked = {};
+  const watchers = {};
   return new Proxy(values, {
-    get: (_, /** @type {string} */ name) => (name === "on" ? (event, run) => (asked[event] ??= []).push(run) : values[name]),
+    get: (_, /** @type {string} */ name) => (name === "on" ? (event, run) => (watchers[event] ??= []).push(run) : values[name]),
     set: (_, /** @type {string} */ name, value) => {
       const news = values[name] !== value;
       values[name] = value;
-      if (news) asked[name]?.forEach((run) => run());
+      if (news) watchers[name]?.forEach((run) => run());
       return true;
     },
   });

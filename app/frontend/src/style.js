@@ -26,7 +26,7 @@ export const style = `
 @media not (prefers-reduced-motion) { .labels .handle:not(.moves, .found) { animation: pulse 1.2s 1s 2; } }
 @keyframes pulse { 50% { box-shadow: 0 0 0 14px color-mix(in srgb, var(--accent) 30%, transparent); } }
 .labels .handle:active { cursor: grabbing; }
-.labels .handle:active::after { content: attr(data-said); position: absolute; left: 28px; top: -16px; padding: 2px 8px; border-radius: 999px;
+.labels .handle:active::after { content: attr(data-wording); position: absolute; left: 28px; top: -16px; padding: 2px 8px; border-radius: 999px;
   font-weight: 600; background: var(--pill); color: var(--scene-ink); }
 .labels .handle:focus-visible { outline: 3px solid var(--scene-ink); outline-offset: 2px; }
 .note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: #fff4e5;

@@ -39,12 +39,12 @@ interface Hand {
   hold(held: boolean): void;
   push(point: number[], impulse: number[]): void;
   spin(turns: number): void;
-  saidSize(size: number): string;
-  saidTurns(turns: number): string;
+  sizeText(size: number): string;
+  turnsText(turns: number): string;
 }
 
 // A push of a run: its time (s), the point from O in R along 1', 2', 3, the impulse in M (gR)^1/2 along x, y, z, and its size.
-type Pushed = { t: number; point: number[]; impulse: number[]; said: string };
+type Pushed = { t: number; point: number[]; impulse: number[]; wording: string };
 
 // An earlier run, shown beside the present one.
 type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
@@ -111,7 +111,7 @@ interface PlaneModel extends Model {
 }
 
 // The words of a number control: its name, the name of its field, its unit; in HTML, on hover and as it is read aloud.
-type Said = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string; symbol?: string };
+type Wording = { name: string; typed: string; unit: string; html?: string; hint?: string; speaks?: string; symbol?: string };
 interface ChoiceModel extends Model {
   label: string;
   options: Record<string, string | number>;
@@ -178,7 +178,7 @@ interface FoldModel extends Model {
 interface NumberControlsModel extends Model {
   parts: string;
   state: string;
-  asked: [count: number, name: string, wish: number | string, typed: boolean] | [];
+  request: [count: number, name: string, wish: number | string, typed: boolean] | [];
 }
 
 type KnownTop = { name: string; label: string; a: number; ratio: number; outline: [radius: number, height: number][] };
@@ -190,12 +190,12 @@ interface TopsMapModel extends Model {
 
 interface GuideModel extends Model {
   tour: boolean;
-  said: string;
+  wording: string;
 }
 
 interface HeadModel extends Model {
   state: Record<string, any>;
-  asked: [count: number, name: string, value: any] | [];
+  request: [count: number, name: string, value: any] | [];
 }
 
 interface LookModel extends Model {
@@ -256,7 +256,7 @@ interface ShareHeadModel extends Model {
   texts: Record<string, any>;
   link: string;
   picture: string;
-  said: string[];
+  wording: string[];
   opened: number;
   closed: number;
 }
@@ -299,7 +299,7 @@ interface ConnectionModel extends Model {
   slow: string;
 }
 
-interface MomentsModel extends Model {
+interface EventListModel extends Model {
   clock: string;
   rows: [t: number, when: string, word: string, more: string][];
 }
@@ -343,7 +343,7 @@ type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | 
   playing: boolean;
   speed: number;
   camera: number[];
-  asked: [count: number, name: string, value: any] | [];
+  request: [count: number, name: string, value: any] | [];
 };
 
 // app/tabs/learn/lesson.py says what each contains.
@@ -353,7 +353,7 @@ type LessonModel = Model & Record<"state", any> & {
   steps: any[];
   runs: Record<string, LessonRun>;
   others: Record<string, LessonRun>;
-  asked: [count: number, name: string, value: string | number] | [];
+  request: [count: number, name: string, value: string | number] | [];
 };
 
 interface StepsModel extends Model {

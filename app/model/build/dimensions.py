@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from app.model.build.inside import INSIDE, inside_handles, inside_pulled, with_inside
-from app.text import listed, say, told
+from app.text import error_text, listed, say
 from tippe_core import (
     Ball,
     BareSphere,
@@ -107,10 +107,10 @@ def sentence(error: TopError) -> str:
     """A TopError in the units of the sliders: m becomes mm, kg becomes g."""
     unit = {"m": "mm", "kg": "g"}.get(error.numbers.get("unit", ""))
     if unit is None or not isinstance(error.value, float):
-        return told(error)
+        return error_text(error)
     numbers = {name: _thousandfold(error.numbers[name]) for name in ("range", "most") if name in error.numbers}
     value = float(f"{1e3 * error.value:.6g}")
-    return told(error.replaced(error.name, value, unit=unit, **numbers), unit=unit)
+    return error_text(error.replaced(error.name, value, unit=unit, **numbers), unit=unit)
 
 
 def _thousandfold(number: Value) -> Value:

@@ -7,7 +7,7 @@ from app.model.events import first_times
 from app.model.phases import NODS
 from app.model.run import TableMotion, whole_on
 from app.model.setup import start_of
-from app.text import say, told
+from app.text import error_text, say
 from tippe_core import Shape, TopError
 from tippe_core.types import Number
 
@@ -28,18 +28,20 @@ def verdict(shape: Shape) -> Verdict:
     try:
         motion = whole_on(TABLE, start_of(shape, SPIN, TILT, MU))
     except TopError as error:
-        said = say("build.verdict.refused_why", why=told(error), **start)
-        return Verdict("refused", say("build.verdict.refused"), said)
+        wording = say("build.verdict.refused_why", why=error_text(error), **start)
+        return Verdict("refused", say("build.verdict.refused"), wording)
     found = first_times(motion)
     code = _end_of(motion, found)
     part = say(f"planes.parts.{motion.start.part}")
-    said = [say(f"build.verdict.{each}", time=found[each], part=part)
+    wording = [say(f"build.verdict.{each}", time=found[each], part=part)
             for each in ("over", "stands-on-stem", "stands-inverted", "falls") if each in found]  # fmt: skip
     if "over" not in found:
         low, high = float(motion.tilt.min()), float(motion.tilt.max())
-        said = [say("build.verdict.stays", low=low, high=high, seconds=motion.start.seconds)]
+        wording = [say("build.verdict.stays", low=low, high=high, seconds=motion.start.seconds)]
     return Verdict(
-        code, say(f"build.verdict.{code}_headline", part=part), " ".join([say("build.verdict.start", **start), *said])
+        code,
+        say(f"build.verdict.{code}_headline", part=part),
+        " ".join([say("build.verdict.start", **start), *wording]),
     )
 
 

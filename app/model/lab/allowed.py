@@ -40,8 +40,8 @@ def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
     if least <= number <= most:
         return ""
     key = name if name in ("spin", "tilt", "mu", "patch") else "range"
-    said = say(f"lab.inputs.{key}", value=number, least=least, most=most)
-    return f"{said} {say('lab.inputs.same', value=number, same=_folded(number))}" if name == "tilt" else said
+    wording = say(f"lab.inputs.{key}", value=number, least=least, most=most)
+    return f"{wording} {say('lab.inputs.same', value=number, same=_folded(number))}" if name == "tilt" else wording
 
 
 def refusal(error: TopError) -> str:

@@ -53,7 +53,7 @@ class LabScene:
     motions: MappingProxyType[str, TableMotion | None]
     stories: MappingProxyType[str, Story]
     refused: MappingProxyType[str, str]
-    said: tuple[str, str]
+    wording: tuple[str, str]
     keeps: MappingProxyType[str, Array]
     turning: tuple[float, float, float] | None
     whole: bool
@@ -110,7 +110,7 @@ def scene_of(table: str, start: Setup, *, whole: bool = False) -> LabScene:
     return LabScene(
         table=table, start=start, motions=MappingProxyType(motions),
         stories=MappingProxyType(stories), refused=MappingProxyType(refused),
-        said=of_all(found),
+        wording=of_all(found),
         keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
         turning=while_it_turns(found["ordinary"]) if "ordinary" in found else None,
         whole=whole or (table != "three" and all(motion.whole for motion in found.values())),
@@ -168,7 +168,7 @@ class Lab(param.Parameterized):
         """Sets the inputs that are valid; each of the others keeps its value, and the scene's messages say why. A new
         toy, spin, tilt or slip makes the start one by hand."""
         faults = {name: fault(name, value) for name, value in inputs.items()}
-        self._messages, self.refused = {name: said for name, said in faults.items() if said}, {}
+        self._messages, self.refused = {name: wording for name, wording in faults.items() if wording}, {}
         self.nearest = {name: near for name in self._messages if (near := nearest(name, inputs[name])) is not None}
         found: dict[str, Any] = {name: value for name, value in inputs.items() if not faults[name]}
         if BY_HAND & found.keys():
@@ -250,7 +250,7 @@ class Lab(param.Parameterized):
             return
         law = OF_LAW[self.explorer.law]
         values = {name: self.value(name) for name in self.INPUTS if name in law or name not in NUMBERS}
-        faults = {name: said for name, value in values.items() if (said := fault(name, value, POSSIBLE))}
+        faults = {name: wording for name, value in values.items() if (wording := fault(name, value, POSSIBLE))}
         self.refused |= {name: values[name] for name in faults}
         self.nearest |= {name: near for name in faults if (near := nearest(name, values[name])) is not None}
         error = self._fault

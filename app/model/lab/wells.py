@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab.moments import SHORT
+from app.model.lab.event_list import SHORT
 from app.model.run import TableMotion
 from app.model.setup import Setup
 from tippe_core import SteadyStates, Stretch, Top, jellett_potential, outcome, steady_states

@@ -10,7 +10,7 @@ from app.model.events import first_times
 from app.model.lesson.parts import K_R, Answer, Guess, Step, at
 from app.model.lesson.rolling import jump, slip, ties, turning
 from app.model.lesson.runs import named
-from app.model.lesson.six import SIX, YOURS, asked
+from app.model.lesson.six import SIX, YOURS, choice
 from app.model.scene import Scene, solve
 
 
@@ -30,15 +30,15 @@ def creep(scene: Scene) -> Answer:
 
 PERCENT, ANGLE = Guess(0.0, 100.0, 0.5, "%", 0.25, 2.0), Guess(0.0, 180.0, 0.5, "°", 0.0, 3.0)
 THEORY = (
-    Step("creep", asked("both", "point", "patch", "neither"), creep, ("point", "patch"), 0.03, 2.4,
+    Step("creep", choice("both", "point", "patch", "neither"), creep, ("point", "patch"), 0.03, 2.4,
          sources=("cohen", "leine")),
     Step("turning", ANGLE, turning, before=0.25, end=2.0, picture="curves", inputs=at(0.6, 0.95),
          tex=(r"\begin{aligned}f_1^2\,\dot\theta^2={}&2E'-2a(1-\cos\theta)\\&-\frac{f_2^2}{\sin^2\theta}\left[K_J-"
               r"\frac{I_3}{I_1}(\cos\theta-a)\frac{K_R}{f_3}\right]^2\quad(36)\end{aligned}",),
          sources=("gray", "arnold")),
-    Step("ties", asked("down", "stays", "up"), ties, before=1.0, end=2.0, picture="curves", inputs=at(0.6, 1.9),
+    Step("ties", choice("down", "stays", "up"), ties, before=1.0, end=2.0, picture="curves", inputs=at(0.6, 1.9),
          tex=(r"f(\theta_m)=0\qquad f(\theta_p)=f'(\theta_p)=0",), sources=("gray",)),
-    Step("jump", asked("inner", "between", "outer", "never"), jump, before=1.0, end=2.0, picture="curves",
+    Step("jump", choice("inner", "between", "outer", "never"), jump, before=1.0, end=2.0, picture="curves",
          inputs=at(0.6, 1.98), tex=(r"F_z=1+a\left(\tfrac12\sin\theta\,f'+\cos\theta\,f\right)\quad(37)",),
          sources=("gray",)),
     Step("slip", PERCENT, slip, before=1.0, end=2.0, picture="curves", inputs=at(0.6, 0.98),

@@ -114,24 +114,24 @@ def yours(scene: Scene) -> Answer:
     return Answer("over" if turned else "not", numbers, told="told_over" if turned else "told_not")
 
 
-def asked(*options: str) -> Choice:
+def choice(*options: str) -> Choice:
     return Choice((*options, UNSURE))
 
 
 DOT = 0.6235  # s: its painted dot faces who looks
 THREE = ("ordinary", "rough", "ice")
 SIX = (
-    Step("flips", asked("over", "upright", "falls"), flips, ("ordinary",), 0.25, 3.0, sources=("perry", "bohr")),
-    Step("way", asked("same", "other", "stopped"), way, ("ordinary",), DOT, 2.3737, "spin", sources=("gray",)),
-    Step("height", asked("push", "spin", "free"), height, ("ordinary",), DOT, 1.6, "energy", sources=("pliskin",)),
-    Step("tables", asked("both", "rough", "ice", "neither"), tables, THREE, 0.25, 2.4, sources=("gallop",)),
-    Step("arms", asked("own", "above", "alike"), arms, ("ordinary",), 0.745, 1.36, "arms",
+    Step("flips", choice("over", "upright", "falls"), flips, ("ordinary",), 0.25, 3.0, sources=("perry", "bohr")),
+    Step("way", choice("same", "other", "stopped"), way, ("ordinary",), DOT, 2.3737, "spin", sources=("gray",)),
+    Step("height", choice("push", "spin", "free"), height, ("ordinary",), DOT, 1.6, "energy", sources=("pliskin",)),
+    Step("tables", choice("both", "rough", "ice", "neither"), tables, THREE, 0.25, 2.4, sources=("gallop",)),
+    Step("arms", choice("own", "above", "alike"), arms, ("ordinary",), 0.745, 1.36, "arms",
          tex=(r"\frac{\tau_z}{\tau_3}=\frac{a\sin\theta}{R\sin\theta}=\frac aR",
               r"L_z-\frac aR\,L_3=J\quad(13)"), sources=("jellett", "leutwyler")),
-    Step("proof", asked("agree", "size", "opposite"), contradiction, ("rolls", "by_jellett", "by_routh"), 0.3, 1.2,
+    Step("proof", choice("agree", "size", "opposite"), contradiction, ("rolls", "by_jellett", "by_routh"), 0.3, 1.2,
          "heads", ("by_jellett", "by_routh"),
          tex=(r"\omega_3(\pi)=-\frac{I_1}{I_3}\frac{K_J}{1+a}\quad(30)\qquad "
               r"\omega_3(\pi)=\frac{K_R}{f_3(\pi)}\quad(31)",), sources=("gray", "routh")),
 )  # fmt: skip
-YOURS = Step("yours", asked("over", "not"), yours, ("yours",), 0.25, 5.9)
+YOURS = Step("yours", choice("over", "not"), yours, ("yours",), 0.25, 5.9)
 BY_NAME = {step.name: step for step in (*SIX, YOURS)}

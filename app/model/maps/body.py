@@ -8,13 +8,13 @@ from app.model.setup import TOYS
 from tippe_core.types import Array
 
 
-def outline_of(asked: Map, cell: Cell, own: Array | None) -> Array:
+def outline_of(request: Map, cell: Cell, own: Array | None) -> Array:
     """The outline (k, 2) of the sliding body; own: that of the visitor's own body. A stem that the map lengthens is
     drawn longer. If the map changes a or I1, the shape is unknown, and only the ball is drawn."""
-    axes = {asked.across, asked.up}
-    if {"a", "ratio"} & axes or (asked.body == OWN and own is None):
+    axes = {request.across, request.up}
+    if {"a", "ratio"} & axes or (request.body == OWN and own is None):
         return outline(cell.top)
-    drawn = own if own is not None and asked.body == OWN else body(TOYS[asked.body].shape)
+    drawn = own if own is not None and request.body == OWN else body(TOYS[request.body].shape)
     if cell.edge is None or not {"stem", "rounding"} & axes:
         return drawn
     radius, height, rounding = (*cell.edge, 0.0)[:3]

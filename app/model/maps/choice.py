@@ -14,9 +14,9 @@ FIXED = ("spin", "tilt", "slip", "mu", "second")
 class MapChoice(param.Parameterized):
     """asked: the Map; colour: one of COLOURS_BY; place: the position of the bead, across and up."""
 
-    INPUTS: ClassVar = ("asked", "colour", "place")
+    INPUTS: ClassVar = ("request", "colour", "place")
 
-    asked = param.ClassSelector(class_=Map, default=Map(), doc="the map")
+    request = param.ClassSelector(class_=Map, default=Map(), doc="the map")
     colour: Any = param.Selector(default="end", objects=[*COLOURS_BY], doc="what its colours show")
     place = param.List(
         default=[*AT], item_type=float, bounds=(2, 2), doc="the position of the bead, in the units of the axes"

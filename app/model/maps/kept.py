@@ -44,32 +44,32 @@ def keep_in(folder: Path) -> None:
 
 
 @contextmanager
-def claimed(asked: Map) -> Iterator[bool]:
+def claimed(request: Map) -> Iterator[bool]:
     """Context in which nobody else computes this map; gives whether that is so, or somebody else does already."""
     with _changing:
-        mine = asked not in _claimed
-        _claimed.add(asked)
+        mine = request not in _claimed
+        _claimed.add(request)
     try:
         yield mine
     finally:
         if mine:
-            _claimed.discard(asked)
+            _claimed.discard(request)
 
 
-def recall(asked: Map) -> Level | None:
+def recall(request: Map) -> Level | None:
     """The complete map, if it was computed before by the same sources of tippe_core."""
     with _changing:
-        level = _memory.get(asked)
+        level = _memory.get(request)
         if level is not None:
-            _memory.move_to_end(asked)
+            _memory.move_to_end(request)
             return level
-    path = SHIPPED.get(asked) or _path(asked)
+    path = SHIPPED.get(request) or _path(request)
     if path is None or not path.exists():
         return None
     with suppress(OSError, ValueError, KeyError, BadZipFile), np.load(path) as file:
-        x, y = asked.centres(asked.cells)
+        x, y = request.centres(request.cells)
         columns = {name: file[name].astype(float) for name in UNITS}
-        level = Level(asked=asked, x=x, y=y, end=file["end"], columns=columns)
+        level = Level(request=request, x=x, y=y, end=file["end"], columns=columns)
         _remember(level)
         return level
     return None
@@ -78,7 +78,7 @@ def recall(asked: Map) -> Level | None:
 def keep(level: Level) -> None:
     """Stores a complete map; the oldest files are deleted, so that all have AS_FILES bytes at most."""
     _remember(level)
-    path = _path(level.asked)
+    path = _path(level.request)
     if path is None:
         return
     with suppress(OSError):
@@ -101,21 +101,21 @@ def _write(level: Level, path: Path, kind: Any = float) -> None:
 
 def _remember(level: Level) -> None:
     with _changing:
-        _memory[level.asked] = level
+        _memory[level.request] = level
         while len(_memory) > IN_MEMORY:
             _memory.popitem(last=False)
 
 
-def _path(asked: Map) -> Path | None:
+def _path(request: Map) -> Path | None:
     """The file's name is a hash of the map's contents and of the sources of tippe_core."""
     if _folder is None:
         return None
-    return _folder / f"{hashlib.sha256(f'{asked!r} {kept.name()}'.encode()).hexdigest()[:32]}.npz"
+    return _folder / f"{hashlib.sha256(f'{request!r} {kept.name()}'.encode()).hexdigest()[:32]}.npz"
 
 
 def main() -> None:
-    for asked, path in SHIPPED.items():
-        _write(next(level for level in solve(asked) if level.finest), path, np.float32)
+    for request, path in SHIPPED.items():
+        _write(next(level for level in solve(request) if level.finest), path, np.float32)
 
 
 if __name__ == "__main__":

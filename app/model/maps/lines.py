@@ -44,30 +44,30 @@ class Reason(NamedTuple):
     one: tuple[float, float]
 
 
-def _excess(asked: Map, x: float, y: float) -> dict[str, float]:
+def _excess(request: Map, x: float, y: float) -> dict[str, float]:
     """{line: by how much a start is beyond it}; nan if there is no such start, or no such line."""
     none = dict.fromkeys(("stands", "leaves", "painleve", *WINDOW), np.nan)
     try:
-        cell = asked.at(x, y)
+        cell = request.at(x, y)
     except TopError:
         return none
     top, state, limits = cell.top, cell.state, _limits(cell.top)
     launch = abs(C_J(top, state) / eq.C_J(1.0, 0.0, 0.0, 1.0, top))
     found = {"stands": launch - limits.launch if limits.inverted.stable == "above" else np.nan,
              "leaves": launch - limits.upright.spin if limits.upright.stable == "below" else np.nan}  # fmt: skip
-    mu = cell.friction.law.mu if asked.law != "viscous" else np.nan  # viscous friction has no upper bound
+    mu = cell.friction.law.mu if request.law != "viscous" else np.nan  # viscous friction has no upper bound
     found["painleve"] = mu - _strongest(top)
     return found | {"window_low": top.I1 / top.I3 - (1 - top.a), "window_high": top.I1 / top.I3 - (1 + top.a)}
 
 
 @lru_cache(32)
-def lines(asked: Map) -> tuple[tuple[str, Array], ...]:
+def lines(request: Map) -> tuple[tuple[str, Array], ...]:
     """(name, (k, 2) points) of each line: "stands", above which the inverted top is stable; "leaves", above which the
     upright top is unstable; "painleve", friction beyond which no normal force can balance the top on its ball; and, for
     a map over tops, the lines of WINDOW."""
-    x, y = (np.linspace(*span, FINE) for span in (asked.across_range, asked.up_range))
-    fields = [[_excess(asked, float(one), float(other)) for one in x] for other in y]
-    wanted = ("stands", "leaves", "painleve", *(WINDOW if {"a", "ratio"} & {asked.across, asked.up} else ()))
+    x, y = (np.linspace(*span, FINE) for span in (request.across_range, request.up_range))
+    fields = [[_excess(request, float(one), float(other)) for one in x] for other in y]
+    wanted = ("stands", "leaves", "painleve", *(WINDOW if {"a", "ratio"} & {request.across, request.up} else ()))
     found: list[tuple[str, Array]] = []
     for name in wanted:
         z = np.array([[each[name] for each in row] for row in fields])
@@ -90,7 +90,7 @@ def _crossings(x: Array, y: Array, z: Array) -> list[Array]:
 
 def disagreements(level: Level) -> list[Disagreement]:
     """The Disagreements of a complete level, one for each kind; none if all runs do what the closed forms predict."""
-    excess = [[_excess(level.asked, float(x), float(y)) for x in level.x] for y in level.y]
+    excess = [[_excess(level.request, float(x), float(y)) for x in level.x] for y in level.y]
     stands, leaves = (np.array([[each[name] for each in row] for row in excess]) for name in ("stands", "leaves"))
     was_run, turned = level.end != "refused", np.isin(level.end, TURNED)
     kinds = {
@@ -122,18 +122,18 @@ def _why(level: Level, kind: str, i: int, j: int) -> str:
     if kind == "beyond":
         return "carries" if end == "stem" else "high"
     if end == "upright":
-        return _stays(level.asked, float(level.x[j]), float(level.y[i]))
+        return _stays(level.request, float(level.x[j]), float(level.y[i]))
     if np.isfinite(level.columns["time_stem"][i, j]):
         return "lifts" if level.columns["hops"][i, j] > MANY else "falls"
     return {"rolling": "sticks", "leaning": "leans"}.get(end, "moving")
 
 
-def _stays(asked: Map, across: float, up: float) -> str:
+def _stays(request: Map, across: float, up: float) -> str:
     """Why a run stays upright: upright is stable too, or pivoting brings its spin to where it is; or that it does."""
-    excess, lost = _excess(asked, across, up)["leaves"], 0.0
+    excess, lost = _excess(request, across, up)["leaves"], 0.0
     if not excess > 0:
         return "stable"
-    if asked.law == "contensou":  # the torque of pivoting without slip is constant: 3 pi/16 mu F_z radius
-        cell = asked.at(across, up)
+    if request.law == "contensou":  # the torque of pivoting without slip is constant: 3 pi/16 mu F_z radius
+        cell = request.at(across, up)
         lost = 3 * np.pi / 16 * cell.friction.law.mu * cell.friction.law.radius / cell.top.I3 * cell.t_end
     return "pivoting" if excess < lost else "slow"

@@ -177,21 +177,21 @@ class Cell(NamedTuple):
     t_end: float
 
     @classmethod
-    def of(cls, asked: Map, x: dict[str, float]) -> "Cell":
+    def of(cls, request: Map, x: dict[str, float]) -> "Cell":
         """The Cell for these values of QUANTITIES; TopError if they are impossible."""
-        own, mine, _ = asked.thing
-        top = own if not {"a", "ratio"} & {asked.across, asked.up} else Top(x["a"], x["ratio"] * own.I3, own.I3)
+        own, mine, _ = request.thing
+        top = own if not {"a", "ratio"} & {request.across, request.up} else Top(x["a"], x["ratio"] * own.I3, own.I3)
         scales = Scales(x["R"] / 1e3, mine.M, mine.g)
         state = by_hand(x["spin"], x["tilt"], x["slip"], scales)
-        return cls(top, scales, _edge(asked, x), state, _law(asked.law, x, scales), asked.seconds / scales.time)
+        return cls(top, scales, _edge(request, x), state, _law(request.law, x, scales), request.seconds / scales.time)
 
 
-def _edge(asked: Map, x: dict[str, float]) -> Rim | None:
+def _edge(request: Map, x: dict[str, float]) -> Rim | None:
     """The edge of the stem, in R of the original body; its lengths grow with R unless they are on an axis."""
-    edge = asked.thing.edge
-    if edge is None or not {"stem", "rounding"} & {asked.across, asked.up}:
+    edge = request.thing.edge
+    if edge is None or not {"stem", "rounding"} & {request.across, request.up}:
         return edge
-    own = 1e-3 / asked.thing.scales.R
+    own = 1e-3 / request.thing.scales.R
     return edge[0], (x["stem"] - x["rounding"]) * own, x["rounding"] * own
 
 
@@ -205,12 +205,12 @@ def _law(law: str, x: dict[str, float], scales: Scales) -> Friction:
     return Contensou(x["mu"], x["second"] / 1e3 / scales.R)
 
 
-def cells_of(asked: Map, places: Iterable[tuple[float, float]]) -> dict[int, Cell]:
+def cells_of(request: Map, places: Iterable[tuple[float, float]]) -> dict[int, Cell]:
     """{index of a place: its Cell} of those places that are possible."""
     found = {}
     for i, (across, up) in enumerate(places):
         with suppress(TopError):
-            found[i] = asked.at(across, up)
+            found[i] = request.at(across, up)
     return found
 
 

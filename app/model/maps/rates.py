@@ -64,9 +64,9 @@ class Rates:
     powers: tuple[Power, ...]
 
 
-def rates(asked: Map, place: tuple[float, float], look: Progress | None = None) -> Rates:
+def rates(request: Map, place: tuple[float, float], look: Progress | None = None) -> Rates:
     """The Rates at the bead. Raises TopError if there is no such top."""
-    own, x = fixed(asked, place), asked.values_at(*place)
+    own, x = fixed(request, place), request.values_at(*place)
     low, high = own.across_range
     spin = np.linspace(max(low, 0.0), high, SPINS)
     if high <= 0:
@@ -163,8 +163,8 @@ def _power(own: Map, law: str, quantity: str, x: dict[str, float], look: Progres
     for each in by:
         value = x[quantity] * each
         try:
-            asked = replace(own, law=law, values=_fixed(x | {quantity: value}))
-            cells.append(asked.at(value if quantity == "spin" else x["spin"], x["tilt"]))
+            request = replace(own, law=law, values=_fixed(x | {quantity: value}))
+            cells.append(request.at(value if quantity == "spin" else x["spin"], x["tilt"]))
             values.append(value)
         except TopError:
             continue

@@ -25,7 +25,7 @@ class Level:
     """A map as far as it has been computed: end (up, across), "" for cells not yet run; columns: {a name of UNITS:
     values (up, across)} in these units, nan for the same cells."""
 
-    asked: Map
+    request: Map
     x: Array
     y: Array
     end: Ends
@@ -39,7 +39,7 @@ class Level:
     @property
     def finest(self) -> bool:
         """Whether this is the finest level."""
-        return self.whole and len(self.x) == self.asked.cells
+        return self.whole and len(self.x) == self.request.cells
 
     @property
     def mixed(self) -> Bools:
@@ -80,13 +80,13 @@ class Found(NamedTuple):
     film: Trajectory
 
 
-def solve(asked: Map, look: Progress | None = None) -> Iterator[Level]:
+def solve(request: Map, look: Progress | None = None) -> Iterator[Level]:
     """Yields the Level after each piece. look: called with the share that is done; an exception that it raises stops
     everything."""
     before: Level | None = None
-    total, done = sum(n * n for n in asked.levels()), 0
-    for n in asked.levels():
-        level = _empty(asked, n)
+    total, done = sum(n * n for n in request.levels()), 0
+    for n in request.levels():
+        level = _empty(request, n)
         if before is not None and n == 3 * len(before.x):
             level.end[1::3, 1::3] = before.end
             for name, values in level.columns.items():
@@ -103,23 +103,23 @@ def solve(asked: Map, look: Progress | None = None) -> Iterator[Level]:
         before = level
 
 
-def _empty(asked: Map, n: int) -> Level:
-    x, y = asked.centres(n)
-    return Level(asked=asked, x=x, y=y, end=np.full((n, n), "", "<U8"),
+def _empty(request: Map, n: int) -> Level:
+    x, y = request.centres(n)
+    return Level(request=request, x=x, y=y, end=np.full((n, n), "", "<U8"),
                  columns={name: np.full((n, n), np.nan) for name in UNITS})  # fmt: skip
 
 
 def _fill(level: Level, piece: NDArray[np.intp], share: float, look: Progress | None) -> None:
-    asked, (rows, columns) = level.asked, np.divmod(piece, len(level.x))
-    found = cells_of(asked, zip(level.x[columns].tolist(), level.y[rows].tolist(), strict=True))
+    request, (rows, columns) = level.request, np.divmod(piece, len(level.x))
+    found = cells_of(request, zip(level.x[columns].tolist(), level.y[rows].tolist(), strict=True))
     level.end[rows, columns] = "refused"
     if not found:
         return
     tops, scales, edges, states, laws, t_end = zip(*found.values(), strict=True)
     edge = None if edges[0] is None else np.array(edges)
     told = None if look is None else lambda _: look(share)
-    many = slide_many(list(tops), list(states), list(laws), np.array(t_end), edge, rtol=asked.rtol,
-                      nudge=NUDGE if asked.nudged else None, progress=told)  # fmt: skip
+    many = slide_many(list(tops), list(states), list(laws), np.array(t_end), edge, rtol=request.rtol,
+                      nudge=NUDGE if request.nudged else None, progress=told)  # fmt: skip
     at, time = (rows[[*found]], columns[[*found]]), np.array([each.time for each in scales])
     level.end[at] = many.end
     units = {"theta_end": 180 / np.pi, "time_90": time, "time_stem": time}
@@ -128,12 +128,12 @@ def _fill(level: Level, piece: NDArray[np.intp], share: float, look: Progress | 
         values[at] = np.where(refused, np.nan, getattr(many, name) * units.get(name, 1.0))
 
 
-def run(asked: Map, across: float, up: float, look: Progress | None = None) -> Found:
+def run(request: Map, across: float, up: float, look: Progress | None = None) -> Found:
     """The run at one place of a map, in full. TopError if there is no such run."""
-    cell = asked.at(across, up)
+    cell = request.at(across, up)
     frames = int(np.clip(abs(cell.state.omega3) * cell.t_end / TURN, CURVE, MOST_CURVE))
     times, time = np.linspace(0, cell.t_end, frames), cell.scales.time
-    moved = slide(cell.top, cell.state, cell.friction, times, rtol=asked.rtol, edge=cell.edge,
+    moved = slide(cell.top, cell.state, cell.friction, times, rtol=request.rtol, edge=cell.edge,
                   progress=look)  # fmt: skip
     stems = [start for start, on in moved.supports if on == "stem"]
     return Found(

@@ -76,26 +76,26 @@ class Bifurcation:
         return (float(at.min()), float(at.max())) if at.size else None
 
 
-def spins_of(asked: Map) -> tuple[float, float]:
+def spins_of(request: Map) -> tuple[float, float]:
     """The range of the spin (rev/s)."""
-    if asked.across == "spin":
-        return asked.across_range
-    if asked.up == "spin":
-        return asked.up_range
+    if request.across == "spin":
+        return request.across_range
+    if request.up == "spin":
+        return request.up_range
     return QUANTITIES["spin"].low, QUANTITIES["spin"].high
 
 
-def fixed(asked: Map, place: tuple[float, float]) -> Map:
+def fixed(request: Map, place: tuple[float, float]) -> Map:
     """The Map over spin and tilt through the bead of another Map."""
-    x, axes = asked.values_at(*place), (asked.across, asked.up)
+    x, axes = request.values_at(*place), (request.across, request.up)
     if {*axes} & OF_BODY:
-        cell = asked.at(*place)
-        own = asked.thing._replace(top=cell.top, scales=cell.scales, edge=cell.edge)
-        asked = replace(asked, body="", own=own)
+        cell = request.at(*place)
+        own = request.thing._replace(top=cell.top, scales=cell.scales, edge=cell.edge)
+        request = replace(request, body="", own=own)
     tilt = QUANTITIES["tilt"]
     values = tuple((name, x[name]) for name in ("mu", "second", "slip", "spin", "tilt"))
-    low, high = spins_of(asked) if "spin" in axes else (QUANTITIES["spin"].low, QUANTITIES["spin"].high)
-    return replace(asked, across="spin", up="tilt", across_range=(low, high), up_range=(tilt.low, tilt.high),
+    low, high = spins_of(request) if "spin" in axes else (QUANTITIES["spin"].low, QUANTITIES["spin"].high)
+    return replace(request, across="spin", up="tilt", across_range=(low, high), up_range=(tilt.low, tilt.high),
                    values=values, nudged=False)  # fmt: skip
 
 
@@ -139,9 +139,9 @@ def _cut(spin: Array, theta: Array, stable: Array) -> list[Line]:
             if there[first] and last - first > 1]  # fmt: skip
 
 
-def bifurcation(asked: Map, place: tuple[float, float], look: Progress | None = None) -> Bifurcation:
+def bifurcation(request: Map, place: tuple[float, float], look: Progress | None = None) -> Bifurcation:
     """The Bifurcation through the bead. Raises TopError if there is no such top."""
-    own, x = fixed(asked, place), asked.values_at(*place)
+    own, x = fixed(request, place), request.values_at(*place)
     low, high = own.across_range
     here = own.at(x["spin"], x["tilt"])
     spin = np.linspace(low, high, RUNS)

@@ -54,7 +54,7 @@ def table_of(data: Data) -> str:
     columns = [_cells(series) for series in data.series.values()]
     rows = ["\t".join(["time (s)", *heads])]
     for key in sorted({key for column in columns for key in column}):
-        rows.append("\t".join([said_time(key[0]), *(column.get(key, "") for column in columns)]))
+        rows.append("\t".join([time_text(key[0]), *(column.get(key, "") for column in columns)]))
     return "\n".join(rows) + "\n"
 
 
@@ -68,7 +68,7 @@ def _cells(series: Series) -> dict[tuple[float, int], str]:
     return cells
 
 
-def said_time(t: float) -> str:
+def time_text(t: float) -> str:
     """A time in s to the microsecond, so that times and the part of a film are rounded in the same way, and frames stay
     distinct however late a film begins."""
     return np.format_float_positional(round(t, MICRO), trim="-")
@@ -77,39 +77,39 @@ def said_time(t: float) -> str:
 def written(film: Film, data: Data) -> str:
     """The text of a film's data and settings."""
     top, scales = film.top, film.scales
-    said = {
+    stored = {
         "law": film.law,
         "loose": film.loose,
         "part": [round(each, MICRO) for each in film.part],
         "top": [top.a, top.I1, top.I3, scales.R, scales.M, scales.g],
         "body": json.loads(save_top(film.shape)) if film.shape else None,
     } | ({"fits": film.fits} if film.fits else {})
-    return f"{MARK} {json.dumps(said)}\n{table_of(data)}"
+    return f"{MARK} {json.dumps(stored)}\n{table_of(data)}"
 
 
 def opened(text: str | bytes) -> Film | None:
     """The settings in a text, None if it is only a table. Raises MeasuredError if they cannot be read."""
     plain = text.decode("utf-8-sig", "replace") if isinstance(text, bytes) else text.removeprefix("\ufeff")
-    for line, said in enumerate(plain[:LARGEST].split("\n", 20)[:20], 1):
-        if said.startswith(MARK):
+    for line, stored in enumerate(plain[:LARGEST].split("\n", 20)[:20], 1):
+        if stored.startswith(MARK):
             try:
-                return _film(json.loads(said[len(MARK) :], parse_int=float))
+                return _film(json.loads(stored[len(MARK) :], parse_int=float))
             except (ValueError, TypeError, KeyError, RecursionError, TopError):
                 raise MeasuredError("film", line=line) from None
     return None
 
 
-def _film(said: Any) -> Film:
-    law, loose, part, top = said["law"], tuple(said["loose"]), said["part"], said["top"]
+def _film(stored: Any) -> Film:
+    law, loose, part, top = stored["law"], tuple(stored["loose"]), stored["part"], stored["top"]
     numbers = np.array([*part, *top], dtype=float)
     if law not in OF_LAW or law == "rolling" or set(loose) - set(LOOSE) or numbers.shape != (8,):
         raise ValueError(law)
     if not np.isfinite(numbers).all() or min(numbers[5:]) <= 0:
         raise ValueError("numbers")
     start, end, a, I1, I3, R, M, g = map(float, numbers)
-    shape = load_top(json.dumps(said["body"])) if said["body"] else None
+    shape = load_top(json.dumps(stored["body"])) if stored["body"] else None
     film = Film(law, loose, (start, end), Top(a, I1, I3), Scales(R, M, g), shape)
-    fits = said.get("fits", ())
+    fits = stored.get("fits", ())
     if fits and all("covariance" in each for each in fits):  # without, it is of before correlations were kept: fit anew
         both = models(film.top, film.scales, shape, law, film.free)
         return replace(film, fits=tuple(checked(each, model) for each, model in zip(fits, both, strict=True)))

@@ -9,7 +9,7 @@ from functools import lru_cache
 from app.model.measured.data import Data, settled
 from app.model.measured.examples import EXAMPLES, FILMED, FOLDER, example
 from app.model.measured.motion import Model
-from app.model.measured.remembered import checked, said_of
+from app.model.measured.remembered import checked, stored_fit
 from app.model.measured.table import read
 from app.model.measured.work import Found, found, found_again, models
 from tippe_core import Top
@@ -19,7 +19,7 @@ LAW = "contensou"
 STORED = FOLDER / "fits.json"
 
 
-def _asked(name: str, law: str, loose: tuple[str, ...]) -> tuple[Data, tuple[Model, Model]]:
+def _wanted(name: str, law: str, loose: tuple[str, ...]) -> tuple[Data, tuple[Model, Model]]:
     data = settled(read((FOLDER / f"made-{name}.csv").read_bytes()))
     return data, models(Top.paper(), FILMED.scales, FILMED, law, loose)
 
@@ -32,16 +32,16 @@ def is_stored(law: str, loose: tuple[str, ...]) -> bool:
 @lru_cache(maxsize=32)
 def found_of_example(name: str, law: str, loose: tuple[str, ...]) -> Found:
     """The Found of a whole example; cached, because every visitor may ask for it."""
-    data, both = _asked(name, law, loose)
+    data, both = _wanted(name, law, loose)
     if not is_stored(law, loose):
         return found(data, both)
     stored = json.loads(STORED.read_text(encoding="utf-8"))[name]
-    return found_again(data, both, tuple(checked(said, model) for said, model in zip(stored, both, strict=True)))
+    return found_again(data, both, tuple(checked(each, model) for each, model in zip(stored, both, strict=True)))
 
 
 def made_anew(name: str) -> Found:
     """What is stored of an example, fitted anew."""
-    return found(*_asked(name, LAW, ()))
+    return found(*_wanted(name, LAW, ()))
 
 
 def main() -> None:
@@ -49,7 +49,7 @@ def main() -> None:
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in EXAMPLES:
         (FOLDER / f"made-{name}.csv").write_text(example(name), encoding="utf-8", newline="\n")
-    fits = {name: [said_of(fit) for fit in made_anew(name).fits] for name in EXAMPLES}
+    fits = {name: [stored_fit(fit) for fit in made_anew(name).fits] for name in EXAMPLES}
     STORED.write_text(json.dumps(fits, indent=1) + "\n", encoding="utf-8", newline="\n")
 
 

@@ -12,7 +12,7 @@ from app.model.measured.motion import BOUNDS, Model, residuals_of, shifted
 DIGITS = 9
 
 
-def said_of(fit: Fit) -> dict[str, Any]:
+def stored_fit(fit: Fit) -> dict[str, Any]:
     """What is stored of a Fit. covariance: the upper triangle, row by row."""
 
     def short(x: float) -> float | None:
@@ -28,10 +28,10 @@ def said_of(fit: Fit) -> dict[str, Any]:
     } | ({"given_up": True} if fit.given_up else {})
 
 
-def checked(said: Any, model: Model) -> dict[str, Any]:
+def checked(stored: Any, model: Model) -> dict[str, Any]:
     """The result of said_of() for a Fit of this Model, checked. Raises ValueError, KeyError, TypeError."""
-    values, sides = dict(said["values"]), dict(said["sides"])
-    if {*values} != {*model.free} or {*sides} != {*model.free} or not {*said["unknown"]} <= {*model.free}:
+    values, sides = dict(stored["values"]), dict(stored["sides"])
+    if {*values} != {*model.free} or {*sides} != {*model.free} or not {*stored["unknown"]} <= {*model.free}:
         raise ValueError("fits")
     for name, value in values.items():
         low, high = BOUNDS[name]
@@ -39,7 +39,7 @@ def checked(said: Any, model: Model) -> dict[str, Any]:
         if not low <= float(value) <= high or not (below > 0 and above > 0):
             raise ValueError(name)
         sides[name] = below, above
-    size, triangle = len(model.free), np.array(said["covariance"], dtype=float)
+    size, triangle = len(model.free), np.array(stored["covariance"], dtype=float)
     covariance = np.zeros((size, size))
     if triangle.shape != (size * (size + 1) // 2,) or not np.isfinite(triangle).all():
         raise ValueError("covariance")
@@ -48,14 +48,14 @@ def checked(said: Any, model: Model) -> dict[str, Any]:
     variances = np.diag(covariance)
     if variances.min() <= 0 or (np.abs(covariance) > 1.001 * np.sqrt(np.outer(variances, variances))).any():
         raise ValueError("covariance")
-    return {"values": values, "sides": sides, "covariance": covariance, "unknown": tuple(said["unknown"]),
-            "sure": said["sure"] is True, "given_up": said.get("given_up") is True}  # fmt: skip
+    return {"values": values, "sides": sides, "covariance": covariance, "unknown": tuple(stored["unknown"]),
+            "sure": stored["sure"] is True, "given_up": stored.get("given_up") is True}  # fmt: skip
 
 
-def remembered(model: Model, data: Data, said: dict[str, Any]) -> Fit:
+def remembered(model: Model, data: Data, stored: dict[str, Any]) -> Fit:
     """The Fit for the result of checked(). Raises TopError if its parameters give no motion."""
-    model = model.with_values({name: float(value) for name, value in said["values"].items()})
+    model = model.with_values({name: float(value) for name, value in stored["values"].items()})
     residuals = residuals_of(model, data)
-    return Fit(model, said["sides"], said["covariance"], residuals, shifted(data),
-               {name: runs(row) for name, row in residuals.of.items()}, said["unknown"], said["sure"],
-               said.get("given_up", False))  # fmt: skip
+    return Fit(model, stored["sides"], stored["covariance"], residuals, shifted(data),
+               {name: runs(row) for name, row in residuals.of.items()}, stored["unknown"], stored["sure"],
+               stored.get("given_up", False))  # fmt: skip

@@ -1,7 +1,7 @@
 """What can be downloaded of a fit: the residuals as a table, and a Python program that repeats it."""
 
 from app.model.measured.data import Data
-from app.model.measured.film import MICRO, said_time, table_of
+from app.model.measured.film import MICRO, table_of, time_text
 from app.model.measured.fit import Fit
 
 
@@ -11,7 +11,7 @@ def residuals_table(data: Data, fit: Fit) -> str:
     rows = ["t_s,quantity,measured,fitted,residual_in_errors"]
     for name, series in data.series.items():
         parts = zip(series.t, series.values, fit.residuals.values[name], fit.residuals.of[name], strict=True)
-        rows += [f"{said_time(t)},{name},{seen:.8g},{fitted:.8g},{rest:.5g}" for t, seen, fitted, rest in parts]
+        rows += [f"{time_text(t)},{name},{seen:.8g},{fitted:.8g},{rest:.5g}" for t, seen, fitted, rest in parts]
     return "\n".join(rows) + "\n"
 
 

@@ -129,9 +129,9 @@ def _chosen(columns: tuple[Column, ...], roles: Roles, run: str, view: str, file
     """The columns, each as what its name says; of several with the same quantity, the one that says its unit. A run
     without a time of its own has that of the first one."""
     timed = {without_run(each.name)[1] for each in columns if understood(each.name)[0] == "time"}
-    said = [understood(column.name) for column in columns]
+    wording = [understood(column.name) for column in columns]
     ranks: dict[str, tuple[bool, bool, int]] = {}
-    for i, (quantity, unit, _) in enumerate(said):
+    for i, (quantity, unit, _) in enumerate(wording):
         of_run = run if quantity != "time" or run in timed else min(timed, default="")
         elsewhere = i in roles or without_run(columns[i].name)[1] not in ("", of_run)
         if not quantity or elsewhere or not np.isfinite(columns[i].values).any():

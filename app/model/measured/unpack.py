@@ -115,13 +115,13 @@ def _tracked(text: str) -> Iterator[list[str]]:
     start, every = int(_number(clip, "startframe", 0)), max(int(_number(clip, "stepsize", 1)), 1)
     duration = _number(_first(tree, "ClipControl"), "delta_t", _number(_first(tree, "Video"), "delta_t", 1000.0))
     begun = _number(clip, "starttime", 0.0)
-    points = [(_said(each, "name") or "?", dict(_frames(each))) for each in tree.iter("object")
+    points = [(_attribute(each, "name") or "?", dict(_frames(each))) for each in tree.iter("object")
               if str(each.get("class")).endswith(".PointMass")]  # fmt: skip
     points = [(name, frames) for name, frames in points if frames]
     if not points:
         raise Wrong("nothing-tracked", {})
     axes = dict(_frames(coords)) if coords is not None else {}
-    unit = _said(tree, "length_unit") or "m"
+    unit = _attribute(tree, "length_unit") or "m"
     of_unit = f" ({unit})" if any(_number(each, "xscale", 1.0) != 1.0 for each in axes.values()) else ""
     yield ["t (ms)", *(f"{name} {axis}{of_unit}" for name, _ in points for axis in "xy")]
     now = None
@@ -154,12 +154,12 @@ def _frames(thing: ElementTree.Element) -> Iterator[tuple[int, ElementTree.Eleme
             yield int(str(frame.get("name"))[1:-1]), inside
 
 
-def _said(thing: ElementTree.Element | None, name: str) -> str:
+def _attribute(thing: ElementTree.Element | None, name: str) -> str:
     return (thing.findtext(f"property[@name='{name}']") or "").strip() if thing is not None else ""
 
 
 def _number(thing: ElementTree.Element | None, name: str, default: float) -> float:
-    value = float(_said(thing, name) or default)
+    value = float(_attribute(thing, name) or default)
     return value if math.isfinite(value) else default
 
 
@@ -186,14 +186,14 @@ def main() -> None:
     except (ImportError, ValueError, OSError):  # elsewhere only time limits it
         pass
     try:
-        said: tuple[Any, ...] = shortened(text_of(sys.stdin.buffer.read(PACKED + 1)))
+        answer: tuple[Any, ...] = shortened(text_of(sys.stdin.buffer.read(PACKED + 1)))
     except Wrong as wrong:
-        said = wrong.args
+        answer = wrong.args
     except MemoryError:
-        said = "bomb", {}
+        answer = "bomb", {}
     except Exception:
-        said = "damaged", {}
-    sys.stdout.buffer.write(json.dumps(said).encode())
+        answer = "damaged", {}
+    sys.stdout.buffer.write(json.dumps(answer).encode())
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ def found(data: Data, both: tuple[Model, Model]) -> Found:
 
 def found_again(data: Data, both: tuple[Model, Model], fits: tuple[dict[str, Any], ...]) -> Found:
     """The Found of a saved film, without fitting again. Raises TopError."""
-    return _of_both(data, *(remembered(model, data, said) for model, said in zip(both, fits, strict=True)))
+    return _of_both(data, *(remembered(model, data, stored) for model, stored in zip(both, fits, strict=True)))
 
 
 def _of_both(data: Data, rolling: Fit, sliding: Fit) -> Found:

@@ -28,7 +28,7 @@ class Desk:
 
     def __init__(self, where=None, votes_of_address=VOTES_OF_ADDRESS):
         self._where, self._votes_of_address = where, votes_of_address
-        self._asked, self._watches, self._used = queue.Queue(MOST_WAITING), set(), {}
+        self._requested, self._watches, self._used = queue.Queue(MOST_WAITING), set(), {}
         self._thread, self._lock, self._rooms, self._away = None, threading.Lock(), None, (-math.inf, None)
 
     def keep(self, where, votes_of_address):
@@ -42,7 +42,7 @@ class Desk:
                 self._thread = threading.Thread(target=self._serve, name="votes", daemon=True)
                 self._thread.start()
         try:
-            self._asked.put_nowait((work, done))
+            self._requested.put_nowait((work, done))
         except queue.Full:
             done(Away("full"))
 
@@ -65,7 +65,7 @@ class Desk:
         while True:
             try:
                 left = max(0.0, due - time.monotonic()) if self._watches else None
-                self._answer(*self._asked.get(timeout=left))
+                self._answer(*self._requested.get(timeout=left))
             except queue.Empty:
                 pass
             if time.monotonic() >= due and self._watches:

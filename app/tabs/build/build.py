@@ -28,8 +28,8 @@ def knob(dimension):
     """The part of a group for one dimension of the body."""
     letter, unit = symbol(dimension.name), dimension.unit
     title = f"{letter} {html.escape(dimension.words)}".strip()
-    said = {"name": dimension.words, "typed": f"{dimension.words}, {unit}".strip(", "), "unit": unit, "html": title}
-    return number(dimension.name, said)
+    wording = {"name": dimension.words, "typed": f"{dimension.words}, {unit}".strip(", "), "unit": unit, "html": title}
+    return number(dimension.name, wording)
 
 
 class Pieces:
@@ -167,8 +167,8 @@ class Build:
         with pn.io.hold():
             self._show_fields(draft)
             elsewhere = {"measured", *self._dimensions}
-            said = [text for name, text in draft.messages.items() if name not in elsewhere]
-            self.file_words.object = alert(said[0] if said else "")
+            wording = [text for name, text in draft.messages.items() if name not in elsewhere]
+            self.file_words.object = alert(wording[0] if wording else "")
             if draft.messages:
                 return
             self.section.show(draft)
@@ -199,7 +199,7 @@ class Build:
         values = {name: float(f"{value_of(shape, name) * each.factor:.9g}") for name, each in dimensions.items()}
         tracks = {name: (min(each.low, values[name]), max(each.high, values[name]), each.step, None)
                   for name, each in dimensions.items()}  # fmt: skip
-        wrong = {name: typeset(said) for name, said in draft.messages.items() if name in dimensions}
+        wrong = {name: typeset(wording) for name, wording in draft.messages.items() if name in dimensions}
         tried = {name: value for name, value in self._tried.items() if name in wrong}
         for name, value in tried.items():
             if draft.about != name.partition(" ")[0]:  # another cannot be any more: said where the hand was

@@ -57,7 +57,7 @@ class RockingFields:
     def _show(self):
         for name, value in self._drawn().items():
             self.entries[name].placeholder = tidy(value * 1e3)
-        said = self.builder.draft.messages.get("measured")
+        wording = self.builder.draft.messages.get("measured")
         if self.builder.draft.shape.top.a < 0:
             self.result.object = note(say("build.own.cannot"))
             self.use.disabled = True
@@ -75,7 +75,7 @@ class RockingFields:
         self.use.disabled = False
         off = abs(found.value - shape.top.a) / found.uncertainty if found.uncertainty else np.inf
         agrees = say("build.own.agrees" if off <= AGREES else "build.own.differs", a=shape.top.a, times=off)
-        self.result.object = alert(said) or " ".join((say(
+        self.result.object = alert(wording) or " ".join((say(
             "build.own.found", a=found.value, uncertainty=found.uncertainty, period=found.shares["T"],
             diameter=found.shares["R"], below=found.value * rocking.D / 2 * 1e3, I1=shape.top.I1), agrees))  # fmt: skip
 

@@ -10,7 +10,7 @@ from app.bundle import Bundled
 from app.model.bodies import body
 from app.model.build.dimensions import handles, pulled, value_of
 from app.model.build.measures import measures
-from app.state import asked
+from app.state import validate
 from app.text import listed, say
 from app.widgets.forms import hear, one_of
 from app.widgets.numbers import tidy
@@ -47,20 +47,20 @@ class Section:
         hear(self.view, hand=self._pulled, tapped=self._tapped)
 
     def _pulled(self, event):
-        name, x, z = asked.parts(event.new, one_of(handles(self._shape)), asked.number, asked.number)
+        name, x, z = validate.parts(event.new, one_of(handles(self._shape)), validate.number, validate.number)
         if name.startswith("point "):
             self.last_point = int(name[6:])
         self._pull(name, pulled(self._shape, name, x / 1e3, z / 1e3))
 
     def _tapped(self, event):
         named = one_of({"", *handles(self._shape)})  # not of a body that is no longer there
-        _, name, x, z = asked.parts(event.new, asked.number, named, asked.number, asked.number)
+        _, name, x, z = validate.parts(event.new, validate.number, named, validate.number, validate.number)
         self._tap(name, x / 1e3, z / 1e3)
 
     def show(self, draft):
         shape = self._shape = draft.shape
         known = {dimension.name: dimension for dimension in draft.dimensions}
-        grips = {name: [*_mm(at), *self._said(known.get(name), at)] for name, at in handles(shape).items()}
+        grips = {name: [*_mm(at), *self._readout(known.get(name), at)] for name, at in handles(shape).items()}
         drawn = [measure for measure in measures(shape) if measure.name in known]
         self.view.state = json.dumps({
             "R": _mm(shape.R), "com": _mm(shape.com), "handles": grips, "free": "point 0" in grips,
@@ -68,14 +68,14 @@ class Section:
             "measures": [dimensioned(measure, shape, known[measure.name]) for measure in drawn],
         })  # fmt: skip
 
-    def _said(self, dimension, at):
+    def _readout(self, dimension, at):
         """The words of a handle, its value, and its range."""
         if dimension is None:  # a point of a free profile
             x, z = _mm(at)
             return ["", say("build.bench.point", x=tidy(x), z=tidy(z))], z, -z, z
         value = value_of(self._shape, dimension.name) * dimension.factor
-        said = [dimension.words, f"{tidy(value)} {dimension.unit}".strip()]
-        return said, round(value, FINE), dimension.low, dimension.high
+        readout = [dimension.words, f"{tidy(value)} {dimension.unit}".strip()]
+        return readout, round(value, FINE), dimension.low, dimension.high
 
 
 def _mm(lengths):

@@ -10,7 +10,7 @@ from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import LIFE, SPINS, Ends, ends_once, known_ends
 from app.model.runs import LATER, Run, Stopped
 from app.model.setup import start_of, toy_of
-from app.text import say, told, written
+from app.text import error_text, say, written
 from app.widgets.cards import words
 from app.widgets.failure import ended
 from app.widgets.spelling import spelled
@@ -50,7 +50,7 @@ class VerdictWords:
     hand at rest; it also repeats computations that ended early."""
 
     def __init__(self, runs):
-        self._runs, self._shape, self._said, self._asked = runs, None, "", None
+        self._runs, self._shape, self._html, self._requested = runs, None, "", None
         self.view = words(self._written(), style=OLD)
         self.strip = words(strip_of(None), style=STRIP)
 
@@ -68,9 +68,9 @@ class VerdictWords:
 
     def _ends(self, key):
         """How the runs at all spins end: stored, or computed in a thread; the same as in the Lab."""
-        if key == self._asked:
+        if key == self._requested:
             return
-        self._asked = key
+        self._requested = key
         found = known_ends(key)
         self.strip.object = strip_of(found)
         if found is None:
@@ -78,13 +78,13 @@ class VerdictWords:
             self._runs.begin(work, "verdict-ends", LATER)
 
     def _ended(self, key, result):
-        if key == self._asked:
+        if key == self._requested:
             if isinstance(result, Ends):
                 self.strip.object = strip_of(result)
             elif isinstance(result, TopError):
-                self.strip.object = strip_of(None, say("build.verdict.strip_refused", why=told(result)))
+                self.strip.object = strip_of(None, say("build.verdict.strip_refused", why=error_text(result)))
             else:
-                self._asked = None  # so that it is computed again
+                self._requested = None  # so that it is computed again
                 self.strip.object = strip_of(None, ended(result))
         if isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
             raise result
@@ -98,13 +98,13 @@ class VerdictWords:
             if not isinstance(result, Stopped):
                 raise result
             return
-        self._said = f"<h3>{html.escape(spelled(result.headline))}</h3><div>{html.escape(spelled(result.why))}</div>"
+        self._html = f"<h3>{html.escape(spelled(result.headline))}</h3><div>{html.escape(spelled(result.why))}</div>"
         self.view.object = self._written()
 
     def _written(self, kind="", why=""):
-        waits = f'<div role="status">{why or say("build.verdict.waits")}</div>' if kind or not self._said else ""
-        before = f"<div>{say('build.verdict.old')}</div>" if kind and self._said else ""
-        return f'<div class="verdict">{waits}{before}<div class="{kind}">{self._said}</div></div>'
+        waits = f'<div role="status">{why or say("build.verdict.waits")}</div>' if kind or not self._html else ""
+        before = f"<div>{say('build.verdict.old')}</div>" if kind and self._html else ""
+        return f'<div class="verdict">{waits}{before}<div class="{kind}">{self._html}</div></div>'
 
 
 def strip_of(ends, why=""):

@@ -11,7 +11,7 @@ from app.model.build.builder import thrown
 from app.model.colours import FAINT, INK
 from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
-from app.text import listed, say, told, written
+from app.text import error_text, listed, say, written
 from app.widgets.cards import alert, flow, note, progress, words
 from app.widgets.forms import Button, Choice, Field
 from app.widgets.once import ONCE
@@ -39,7 +39,7 @@ class Compare:
         self.entries = {name: Field(say("family.map.entry", name=spoken[name]), shows=symbol)
                         for name, symbol in self.FIELDS}  # fmt: skip
         self._prefill()
-        self.said = words()
+        self.wording = words()
         bottom, top = _sides(RATIOS)
         self.map = fig = plain(height=330, x_range=(0, 1), y_range=(bottom, top), name="map")
         colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
@@ -65,7 +65,7 @@ class Compare:
             words(say("family.map.says"), margin=(6, 0)),
             flow(*self.entries.values(), self.start, self.cancel, margin=(0, 0, 6, 0)),
             self.bar,
-            self.said,
+            self.wording,
             words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
             pane(self.map),
             words('<div style="text-align: center"><i>a</i>/<i>R</i></div>' + note(say("family.map.here"))),
@@ -91,7 +91,7 @@ class Compare:
         self.map.x_range.update(start=low, end=high)
         return {"x": [low], "w": [high - low]}
 
-    def _asked(self):
+    def _requested(self):
         """I1, K_R and mu_s as they were typed; if one cannot be, says so there, and raises ValueError."""
         values = {name: entry.number("family.map.not_a_number", self._good[name], name=name)
                   for name, entry in self.entries.items()}  # fmt: skip
@@ -99,7 +99,7 @@ class Compare:
                                           ("mu_s", "mu_s >= 0", values["mu_s"] >= 0, "0")):  # fmt: skip
             if not good:
                 error = TopError(name, values[name], allowed)
-                self.entries[name].refuse(told(error), near, self._good[name])
+                self.entries[name].refuse(error_text(error), near, self._good[name])
                 raise error
         self._good = {name: entry.value for name, entry in self.entries.items()}
         return values
@@ -107,16 +107,16 @@ class Compare:
     def compute(self):
         """Computes the map in a thread. If it is impossible, a sentence says why."""
         try:
-            asked = self._asked()
+            request = self._requested()
         except ValueError:
             return
         top = self._scene.top
-        own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1
+        own = abs(top.I1 - request["I1"]) < 1e-3 * top.I1
         self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
         span = self._show_span()
         self.cancel.disabled = False
-        self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
-        wanted = asked["I1"], asked["K_R"], asked["mu_s"], self.kind.value
+        self.bar.visible, self.bar.object, self.wording.object = True, _progress(0), ""
+        wanted = request["I1"], request["K_R"], request["mu_s"], self.kind.value
         self._run = Run(partial(self._work, wanted, span), self._done)
         self._runs.begin(self._run, "map")
 
@@ -143,9 +143,9 @@ class Compare:
     def _done(self, result):
         stopped = isinstance(result, Stopped)
         self.cancel.disabled, self.bar.visible = True, False
-        self.said.object = note(say("family.map.cancelled")) if stopped else ""
+        self.wording.object = note(say("family.map.cancelled")) if stopped else ""
         if isinstance(result, Exception) and not stopped:
-            self.said.object = alert(say("family.map.failed"))
+            self.wording.object = alert(say("family.map.failed"))
             raise result
 
 

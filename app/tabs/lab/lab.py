@@ -18,7 +18,7 @@ from app.model.lab.examples import EXAMPLES
 from app.model.lab.lab import FIRST, Lab
 from app.model.pushes import push_words
 from app.model.setup import MOST_SECONDS, OF_LAW, shape_of
-from app.state import asked
+from app.state import validate
 from app.state.codecs import Pushes
 from app.state.names import LEVELS
 from app.tabs.lab.view import LabView, capital, inputs
@@ -101,10 +101,10 @@ class LabTab:
 
     def __init__(self, lab, rests, **leads):
         self._lab, self._leads, self._rest, self._looks = lab, leads, Rest(rests), 0
-        self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
+        self._answered, self._confirmed, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self._rolls = ""
         self.view = LabView(sizing_mode="stretch_width", margin=0)
-        hear(self.view, asked=self._heard)
+        hear(self.view, request=self._heard)
         lab.param.watch(self._changed, ["scene", "ends", "busy"])
         self.view.param.watch(self._opened, "level")
         self.show()
@@ -122,7 +122,7 @@ class LabTab:
 
     def _heard(self, event):
         """A request from the browser."""
-        count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
+        count, name, value = validate.parts(event.new, validate.number, validate.text, validate.anything)
         self._answered, looks = int(count), self._looks
         if name in self._leads:
             self._leads[name]()
@@ -131,14 +131,14 @@ class LabTab:
         elif name == "example":
             self._lab.ask(**EXAMPLES[one_of(EXAMPLES)(value)])
         elif name == "pushes":
-            self._push(asked.text(value))
+            self._push(validate.text(value))
         elif name in Lab.INPUTS or name in dimensions(self._lab.explorer.toy):
             self._tried[name], self._wrong, self._near = value, {}, {}
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
         else:
-            raise asked.Unasked(name)
+            raise validate.InvalidMessage(name)
         self._rest.moved()
-        if self._said == self._answered:
+        if self._confirmed == self._answered:
             return
         if not self._lab.busy:
             self.show()
@@ -160,8 +160,8 @@ class LabTab:
         is no such body."""
         toy, dimension = self._lab.explorer.toy, dimensions(self._lab.explorer.toy)[name]
         try:
-            number = asked.number(value)
-        except asked.Unasked:
+            number = validate.number(value)
+        except validate.InvalidMessage:
             typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
             self._wrong[name] = say("lab.inputs.no_number", value=typed)
             return {}
@@ -193,7 +193,7 @@ class LabTab:
     def show(self):
         """Shows the present state of the Lab."""
         if self._lab.scene is not None:
-            self._said = self._answered
+            self._confirmed = self._answered
             with speaking(spoken()):  # set once, not for each word
                 self._show(self._lab.scene)
 
@@ -210,11 +210,11 @@ class LabTab:
         self.view.tell(**changes)
 
     def _state(self, scene):
-        lab, start, asked = self._lab, self._lab.explorer, self._asked(scene)
+        lab, start, request = self._lab, self._lab.explorer, self._requested_start(scene)
         toy = start.toy
         values = {name: lab.value(name) for name in SLIDERS}
         sliders = {name: (*INPUTS[name].track(values[name]), *known[2:]) for name, known in SLIDERS.items()}
-        messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
+        messages = {name: spelled(wording) for name, wording in (scene.messages | self._wrong).items()}
         dims = dimensions(toy)
         sizes_of = {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()}
         rolls = "" if self.view.level == LEVELS[0] else spelled(self._rolls)
@@ -226,12 +226,12 @@ class LabTab:
             "refused": {name: lab.refused.get(name, self._tried.get(name)) for name in messages},
             "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
             "old": next((self._named(scene.start, name) for name in messages if name in SLIDERS), rolls),
-            "was": self._differ(scene.start, asked), "wants": self._differ(asked, scene.start),
+            "was": self._differ(scene.start, request), "wants": self._differ(request, scene.start),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
             "answered": self._answered, "busy": lab.busy, "reached": lab.reached,
         }  # fmt: skip
 
-    def _asked(self, scene):
+    def _requested_start(self, scene):
         """The start that is asked for; the one that is shown if no body has these inertias."""
         try:
             return self._lab.inputs[1]
@@ -243,13 +243,13 @@ class LabTab:
         law, numbers = start.law, [name for name in OF_LAW[start.law] if name != "mu"]
         if self.view.level != LEVELS[0] and start.rolling is None:
             numbers.append("slip")
-        said_of, ordinary = inputs(), scene.motions["ordinary"]
-        (headline, why), dims, toy = scene.said, dimensions(scene.toy), [repr(scene.toy), say("main.own")]
+        wordings, ordinary = inputs(), scene.motions["ordinary"]
+        (headline, why), dims, toy = scene.wording, dimensions(scene.toy), [repr(scene.toy), say("main.own")]
         if isinstance(scene.toy, str):
             toy = [scene.toy, listed("build.presets")[scene.toy]["name"]]
         return {
             "table": scene.table,
-            "rubs": [[name, said["typed"], said["unit"]] for name in numbers for said in (said_of[name],)] * slides,
+            "rubs": [[name, wordings[name]["typed"], wordings[name]["unit"]] for name in numbers] * slides,
             "of": {
                 "law": [law, f"{view['law']}: {listed('planes.law')[law]}", f"{view['law']}:"],
                 **{name: [getattr(start, name), self._named(start, name)] for name in inputs_of(law)},
@@ -260,7 +260,7 @@ class LabTab:
                    for name, size in sizes(scene.toy).items()},
             },
             "runs": {table: self._run(scene, table) for table in scene.motions},
-            "said": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
+            "wording": [spelled(headline), " ".join(filter(None, (spelled(why), self._law(law))))],
             "notes": notes(scene) if self.view.level != LEVELS[0] else {},
             "caught": ordinary is not None and ordinary.caught,
             "touches": start.shape is not None and start.shape.touch_angle is not None,
@@ -289,10 +289,10 @@ class LabTab:
     @staticmethod
     def _named(start, name):
         """An input of a start with its value, in words."""
-        said, digits = inputs()[name], SLIDERS[name][-1]
-        gap = "" if said["unit"] in ("", "°") else " "
+        wording, digits = inputs()[name], SLIDERS[name][-1]
+        gap = "" if wording["unit"] in ("", "°") else " "
         number = f"{getattr(start, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")
-        return spelled(f"{said['name']} {number}{gap}{said['unit']}")
+        return spelled(f"{wording['name']} {number}{gap}{wording['unit']}")
 
     @staticmethod
     def _jellett(scene):
@@ -313,7 +313,7 @@ class LabTab:
         story = scene.stories[table]
         return {
             "events": [[t, code, spelled(word), spelled(short)] for t, code, word, short in story.events],
-            "stages": [[t, *map(spelled, said)] for t, *said in story.stages],
+            "stages": [[t, *map(spelled, wording)] for t, *wording in story.stages],
             "caption": spelled(story.caption),
             "why": "",
             "jellett": LabTab._jellett(scene) if table == "ordinary" else "",

@@ -8,19 +8,19 @@ import panel as pn
 import param
 
 from app.model.colours import COLOURS
-from app.model.lab.moments import moments
+from app.model.lab.event_list import events_of
 from app.model.lab.nudged import hits, nudged
 from app.model.runs import LATER, Run
-from app.state import asked
+from app.state import validate
 from app.state.names import PANELS
 from app.tabs.lab.figures import LEDGER, Times, Well
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import ball_words, run_words, scatter_words, table_words
 from app.text import say, written
 from app.widgets.cards import column, note, swatch, words
+from app.widgets.event_list import EventList
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import Choice
-from app.widgets.moments import Moments
 from app.widgets.plots import pane
 from app.widgets.times import ROWS, key, row
 from app.widgets.tops_map import TopsMap
@@ -90,7 +90,7 @@ class Research(param.Parameterized):
 
     def _chosen(self, event):
         if event.new not in PANELS:
-            raise asked.Unasked(event.new)
+            raise validate.InvalidMessage(event.new)
         if event.new != self.shown:
             self.panel = event.new
 
@@ -153,13 +153,13 @@ class Research(param.Parameterized):
         return content, {"lab": show}
 
     def _make_values(self):
-        happened = Moments(clock="lab", sizing_mode="stretch_width", margin=(4, 0, 0, 0))
+        happened = EventList(clock="lab", sizing_mode="stretch_width", margin=(4, 0, 0, 0))
         kept, scatters, of_run = words(style=TABLE), words(style=TABLE), words()
 
         def show(scene):
             table = scene.watched
             happened.rows = [[t, f"{written(seconds, '.2f')} s", word, more]
-                             for t, seconds, word, more in moments(scene.motions[table])]  # fmt: skip
+                             for t, seconds, word, more in events_of(scene.motions[table])]  # fmt: skip
             kept.object = table_words(scene)
             of_run.object = f'<div class="key">{run_words(scene.start, table)}</div>'
             self.rolling.say(self._lab.explorer.scene if scene.table == "rough" else None)
@@ -173,7 +173,7 @@ class Research(param.Parameterized):
             if self._lab.scene.motions["ordinary"] is motion:
                 scatters.object = f'<div class="says">{scatter_words(growth)}</div>'
 
-        title = words(f"<h2>{say('planes.moments.title')}</h2>")
+        title = words(f"<h2>{say('planes.event_list.title')}</h2>")
         return [title, happened, scatters, kept, of_run, self.rolling.kept], {"lab": show}
 
     def _make_ends(self):

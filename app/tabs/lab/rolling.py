@@ -6,15 +6,15 @@ import panel as pn
 
 from app.borrowed import at_once
 from app.model.hands import pulled
-from app.state import asked
+from app.state import validate
 from app.text import say
 from app.widgets.cards import column, words
 from app.widgets.controls import named
 from app.widgets.forms import Choice
+from app.widgets.live_text import live_text
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plots import pane
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
-from app.widgets.said import said
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.typeset import power
 
@@ -29,7 +29,7 @@ class Switch:
     def __init__(self, title, *kinds, soon):
         self._kinds, self._made, self._scene = kinds, {}, None
         self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
-        self._says = said(styles={"min-height": "2.8em"})
+        self._says = live_text(styles={"min-height": "2.8em"})
         self._switch = Choice({say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)}, 0)
         self._switch.param.watch(lambda event: soon(partial(self._look, event.new)), "value")
         self.view = column(words(f"<h2>{title}</h2>"), self._switch, *self._places, self._says, height=HALF)
@@ -65,11 +65,11 @@ class Rolling:
 
     def __init__(self, scheduler, runs, slip):
         self._pacer, self._runs, self._slip, self._scene = scheduler, runs, slip, None
-        self.kept = said()
+        self.kept = live_text()
 
     def plane(self):
         card = PlaneCard(self._pacer.ask, self._slip, self._runs)
-        card.plane.param.watch(asked.heard(self._on_plane), "hand")
+        card.plane.param.watch(validate.handler(self._on_plane), "hand")
 
         def select(scene):
             self._scene = scene
@@ -81,7 +81,7 @@ class Rolling:
     def surface(self):
         surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])
         at_once(surface, "hand")
-        surface.param.watch(asked.heard(self._on_surface), ["hand", "picked"])
+        surface.param.watch(validate.handler(self._on_surface), ["hand", "picked"])
 
         def draw(scene):
             self._scene = scene
@@ -118,11 +118,11 @@ class Rolling:
         self._pacer.ask(**pulled(self._scene, grip, theta, K_J, limit))
 
     def _on_plane(self, event):
-        self._grabbed(*asked.parts(event.new, asked.text, asked.number, asked.number), "slip")
+        self._grabbed(*validate.parts(event.new, validate.text, validate.number, validate.number), "slip")
 
     def _on_surface(self, event):
         if event.name == "hand":
-            grip, theta, K_J = asked.parts(event.new, asked.text, asked.number, asked.number)
+            grip, theta, K_J = validate.parts(event.new, validate.text, validate.number, validate.number)
         else:
-            grip, (K_J, theta) = "tieline", asked.parts(event.new, asked.number, asked.number)
+            grip, (K_J, theta) = "tieline", validate.parts(event.new, validate.number, validate.number)
         self._grabbed(grip, theta, K_J, self._scene.plane.limit)

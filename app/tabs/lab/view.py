@@ -49,7 +49,7 @@ class LabView(Bundled, Playing):
     keeps_rough = param.Bytes(default=b"")
     keeps_ice = param.Bytes(default=b"")
     level = param.String(default=LEVELS[0], doc="How much the page shows: one of LEVELS.")
-    asked = param.List(
+    request = param.List(
         default=[], doc="[count, name, value] of a request; state tells the last count that was answered. The names "
         "are a Lab's inputs; example: one of EXAMPLES; research: the paper's figures; why, why_not: a place of Learn."
     )  # fmt: skip

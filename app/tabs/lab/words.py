@@ -4,7 +4,7 @@ import html
 
 import numpy as np
 
-from app.model.lab.moments import SHORT
+from app.model.lab.event_list import SHORT
 from app.model.lab.traced import turns_back
 from app.model.motion import RTOL
 from app.model.pushes import push_words

@@ -5,9 +5,9 @@ import param
 from app.model.lesson import lesson
 from app.model.lesson.runs import on_table
 from app.model.runs import Run, Runs
-from app.state import asked
+from app.state import validate
 from app.state.names import SECTIONS
-from app.tabs.learn.lesson import FIRST, LessonView, cut, runs_of, said
+from app.tabs.learn.lesson import FIRST, LessonView, cut, runs_of, state_of
 from app.tabs.learn.lines import Derivation
 from app.tabs.learn.present import Teacher
 from app.tabs.learn.published import published_view
@@ -40,7 +40,7 @@ class Learn(param.Parameterized):
         self._scene, self._runs, self._of = scene, runs or Runs(), {}
         self._lab = lab or (lambda: None)
         self.lesson = LessonView(sizing_mode="stretch_width", margin=0, worksheet=worksheet())
-        hear(self.lesson, asked=self._heard)
+        hear(self.lesson, request=self._heard)
         self.top = Top3D(clock=CLOCK, sizing_mode="stretch_both")
         self.derivation = Derivation(CLOCK)
         options = {say(f"learn.sections.{name}"): name for name in SECTIONS}
@@ -76,13 +76,13 @@ class Learn(param.Parameterized):
         if not self._runs.beside:
             self._take(self._found(self._scene, lesson.STEPS))
             return
-        self.lesson.param.update(steps=[said(first, self._scene)], runs={FIRST: cut(on_table(FIRST), first.end)})
+        self.lesson.param.update(steps=[state_of(first, self._scene)], runs={FIRST: cut(on_table(FIRST), first.end)})
         self._find(lesson.STEPS)
 
     @staticmethod
     def _found(scene, steps):
         """(words, runs) of these steps for this scene."""
-        return {step.name: said(step, scene) for step in steps}, runs_of(steps, scene)
+        return {step.name: state_of(step, scene) for step in steps}, runs_of(steps, scene)
 
     def _find(self, steps):
         work = Run(lambda run, scene=self._scene: self._found(scene, steps), unless_stopped(self._take))
@@ -100,7 +100,7 @@ class Learn(param.Parameterized):
 
     def _heard(self, event):
         """A request from the browser."""
-        _, name, value = asked.parts(event.new, asked.number, asked.text, asked.text)
+        _, name, value = validate.parts(event.new, validate.number, validate.text, validate.text)
         if name == "step" and value in lesson.NAMES:
             self.step = value
         elif name == "section" and value in SECTIONS:
@@ -110,7 +110,7 @@ class Learn(param.Parameterized):
         elif name in WISHES:
             getattr(self.teacher, name)()
         else:
-            raise asked.Unasked(name)
+            raise validate.InvalidMessage(name)
 
     # ---- the sections ----
 

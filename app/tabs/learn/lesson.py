@@ -19,7 +19,7 @@ from app.model.run import TableMotion
 from app.model.setup import TABLES
 from app.model.story import story
 from app.state.names import link
-from app.text import listed, say, told
+from app.text import error_text, listed, say
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import TopError
@@ -43,7 +43,7 @@ class LessonView(Bundled):
     others = param.Dict(default={}, doc="{name: run}, those of theory and of the page's own top.")
     worksheet = param.String(default="", doc="A page to print, in HTML.")
     state = param.Dict(default={}, doc='step: which is looked at; role: "phone" in a class; room: of a class.')
-    asked = param.List(default=[], doc="[count, name, value] of a request, the browser writes it.")
+    request = param.List(default=[], doc="[count, name, value] of a request, the browser writes it.")
 
     @classmethod
     def says(cls, language=None):
@@ -90,18 +90,18 @@ def runs_of(steps, scene, hidden=False):
 TELLS = {"told": [], "learned": "", "truth": None, "graph": None, "events": [], "tex": []}
 
 
-def said(step, scene, hidden=False):
+def state_of(step, scene, hidden=False):
     """A step in words and numbers, with its answer unless that is hidden; if it is impossible for this top, the
     sentence that says why."""
     head = {"name": step.name, "title": say(f"learn.{step.name}.title"), "theory": step in lesson.THEORY}
     try:
         plan = lesson.planned(step, scene)
-        return head | _said(step, plan, step.answer(plan)) | (TELLS if hidden else {})
+        return head | _answered(step, plan, step.answer(plan)) | (TELLS if hidden else {})
     except TopError as error:
-        return head | {"refused": told(error), "question": head["title"]}
+        return head | {"refused": error_text(error), "question": head["title"]}
 
 
-def _said(step, plan, answer):
+def _answered(step, plan, answer):
     numbers = answer.numbers | ({"spin": SPIN, "tilt": TILT} if step.name == "yours" else {})
     long = plan.rolling.period * plan.scales.time if step.inputs else 1.0
     motions = {name: _motion(name, plan) for name in step.tops}

@@ -13,7 +13,7 @@ from app.model.votes.desk import DESK
 from app.state.url_state import EXPLORER, inputs_of
 from app.text import say
 
-MOST_ASKED = 4
+MOST_REQUESTS = 4
 
 
 def page_address():
@@ -22,7 +22,7 @@ def page_address():
     return f"{location.protocol}//{location.hostname}{f':{location.port}' if location.port else ''}{location.pathname}"
 
 
-def asked_of(step, scene):
+def question_of(step, scene):
     """A question to a class about this step for the scene's top, as data; each page adds its own words."""
     top = scene.top
     given = {"shape": scene.inputs["shape"], "a": top.a, "I1": top.I1, "I3": top.I3}
@@ -42,7 +42,7 @@ class Counter:
     def __init__(self):
         document = pn.state.curdoc
         self._post = to_session(document) if document else lambda function: function()
-        self._asked, self._end = [], lambda: None
+        self._requests, self._end = [], lambda: None
         request = getattr(document and document.session_context, "request", None)
         self.address = getattr(request, "remote_ip", "")
         if document:
@@ -51,17 +51,17 @@ class Counter:
     def ask(self, work, done):
         """Calls done() with the result of work(Rooms), or with a Refused or an Away; after earlier requests, of which
         there are a few at most."""
-        if len(self._asked) < MOST_ASKED:
-            self._asked.append((work, done))
-            if len(self._asked) == 1:
+        if len(self._requests) < MOST_REQUESTS:
+            self._requests.append((work, done))
+            if len(self._requests) == 1:
                 self._begin()
 
     def _begin(self):
-        work, done = self._asked[0]
+        work, done = self._requests[0]
 
         def answered(result):
-            del self._asked[0]
-            if self._asked:
+            del self._requests[0]
+            if self._requests:
                 self._begin()
             if isinstance(result, Exception) and not isinstance(result, (Refused, Away)):
                 raise result

@@ -12,7 +12,7 @@ from app.model.lesson.parts import Choice
 from app.model.votes.ballots import Away
 from app.model.votes.classroom import Refused
 from app.state.names import VOTE, is_local, query
-from app.tabs.learn.poll import Counter, asked_of, page_address, refusal
+from app.tabs.learn.poll import Counter, page_address, question_of, refusal
 
 BINS = 12
 
@@ -36,7 +36,7 @@ class Teacher:
 
     def __init__(self, kept, now, show):
         self._kept, self._now, self._show = kept, now, show
-        self._counter, self._room, self._wish, self._busy, self._said = Counter(), None, None, False, ""
+        self._counter, self._room, self._wish, self._busy, self._sentence = Counter(), None, None, False, ""
         self.come_back()
 
     def come_back(self):
@@ -75,7 +75,7 @@ class Teacher:
             self._wishes(None)
 
     def _question(self):
-        return asked_of(lesson.OF_NAME[self._kept.step], self._now())
+        return question_of(lesson.OF_NAME[self._kept.step], self._now())
 
     def _wishes(self, work):
         if self._room is None:
@@ -132,14 +132,14 @@ class Teacher:
     def _tell(self, sentence):
         room = self._room
         if room is None:
-            self._show({"said": sentence} if sentence else {})
+            self._show({"wording": sentence} if sentence else {})
             return
         address = page_address() + query({VOTE: room.code})
         # nobody sees the votes of others before the answer is shown
         found = counts(lesson.OF_NAME[room.step], list(room.votes)) if room.shown else []
         self._show({
             "code": room.code, "address": address, "step": room.step, "shown": room.shown, "counts": found,
-            "voted": len(room.votes), "phones": max(room.phones, len(room.votes)), "said": sentence,
+            "voted": len(room.votes), "phones": max(room.phones, len(room.votes)), "wording": sentence,
             "local": is_local(pn.state.location.hostname),
             "picture": segno.make(address, error="m", micro=False).svg_inline(light="white", omitsize=True, border=2),
         })  # fmt: skip

@@ -65,7 +65,7 @@ class Steps(Bundled):
                                          "drawn": drawn, "open": say("published.page.open", language)}  # fmt: skip
 
 
-def curve_said(curve):
+def curve_data(curve):
     """A Curve for the browser, with a sentence of it."""
     name = say(f"published.laws.{curve.law}", step=curve.step)
     key = "over" if not np.isnan(curve.over) else "stays" if np.isnan(curve.caught) else "caught"
@@ -82,7 +82,7 @@ def steps_view(runs):
     steps = Steps(points=points, sizing_mode="stretch_width", margin=0)
 
     def take(found):
-        steps.curves = [curve_said(curve) for curve in found]
+        steps.curves = [curve_data(curve) for curve in found]
 
     runs.begin(Run(lambda run: published.curves(), unless_stopped(take)), "published")
     return steps
@@ -102,7 +102,7 @@ def published_view(runs):
         for name, texts in RESULTS.items()
     )
     explanations = "".join(
-        f"<h3 style='margin: 0'>{say(f'published.explanations.{name}.said')}</h3>"
+        f"<h3 style='margin: 0'>{say(f'published.explanations.{name}.wording')}</h3>"
         + opened(say(f"published.explanations.{name}.but"), texts)
         for name, texts in EXPLANATIONS.items()
     )

@@ -8,9 +8,9 @@ from app.model.lesson import lesson
 from app.model.runs import Run, Runs, connected_to, to_session
 from app.model.votes.ballots import Away
 from app.model.votes.classroom import MARK, Refused
-from app.state import asked
+from app.state import validate
 from app.state.names import link
-from app.tabs.learn.lesson import LessonView, runs_of, said
+from app.tabs.learn.lesson import LessonView, runs_of, state_of
 from app.tabs.learn.poll import Counter, refusal, scene_of
 from app.text import say
 from app.widgets.cards import column
@@ -32,10 +32,10 @@ class Ballot:
         self._code, self._counter, self._runs = code, Counter(), runs or Runs()
         self._room, self._mine, self._mark, self._made = None, None, "", ()
         self.phone = Phone(width=0, height=0, margin=0)
-        self.lesson = LessonView(sizing_mode="stretch_width", margin=0, state={"role": "phone", "said": ""})
+        self.lesson = LessonView(sizing_mode="stretch_width", margin=0, state={"role": "phone", "wording": ""})
         # changes that are held back and sent together before the page has loaded would be lost
         self.phone.param.watch(self._known, "mark")
-        hear(self.lesson, asked=self._heard)
+        hear(self.lesson, request=self._heard)
         self._tell(say("teach.vote.wait"))
 
     @property
@@ -85,7 +85,7 @@ class Ballot:
             step, scene, shown = lesson.OF_NAME[room.step], scene_of(room), room.shown
 
             def work(run):
-                return said(step, scene, hidden=not shown), runs_of([step], scene, hidden=not shown)
+                return state_of(step, scene, hidden=not shown), runs_of([step], scene, hidden=not shown)
 
             self._runs.begin(Run(work, unless_stopped(self._found)), "lesson")
 
@@ -96,15 +96,15 @@ class Ballot:
     def _tell(self, sentence, again=False):
         room = self._room
         shown = {} if room is None else {
-            "code": room.code, "place": lesson.NAMES.index(room.step) + 1, "asked": room.step, "shown": room.shown,
+            "code": room.code, "place": lesson.NAMES.index(room.step) + 1, "question": room.step, "shown": room.shown,
             "voted": len(room.votes), "phones": max(room.phones, len(room.votes)), "mine": self._mine,
         }  # fmt: skip
         self.lesson.state = {"role": "phone", "step": self.lesson.state.get("step", ""), "room": shown,
-                             "said": sentence, "again": again, "alone": link(tab="learn")}  # fmt: skip
+                             "wording": sentence, "again": again, "alone": link(tab="learn")}  # fmt: skip
 
     def _heard(self, event):
         """A request from the browser."""
-        _, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
+        _, name, value = validate.parts(event.new, validate.number, validate.text, validate.anything)
         if name == "vote" and self._room is not None:
             self._vote(value)
         elif name == "again":

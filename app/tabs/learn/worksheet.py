@@ -25,7 +25,7 @@ def worksheet(scene=None):
     def line(*names):
         return "".join(f'<div class="line">{escape(say(f"worksheet.{name}"))}<span></span></div>' for name in names)
 
-    asked = "".join(
+    request = "".join(
         f"<section><b>{escape(words)}</b>{line('guess', 'saw', *WHY.get(name, ()))}</section>"
         for name, words in listed("worksheet.asked").items()
     )
@@ -35,7 +35,7 @@ def worksheet(scene=None):
     return (
         f'<!doctype html><html lang="{spoken()}"><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>'
         f"<header><h1>{title}</h1><span>{escape(say('worksheet.name'))} ______________________</span></header>"
-        f"<p>{escape(say('worksheet.intro'))}</p>{own}{asked}<h2>{escape(say('worksheet.toy'))}</h2>{toy}"
+        f"<p>{escape(say('worksheet.intro'))}</p>{own}{request}<h2>{escape(say('worksheet.toy'))}</h2>{toy}"
         f'<section><p>{escape(say("worksheet.draw"))}</p><div class="box">{drawn}</div></section></html>'
     )
 

@@ -17,7 +17,7 @@ LIMITS = ("from", "to")
 class Settings:
     """changed: called after an input was set by hand; gone: after another position of the bead was typed."""
 
-    def __init__(self, asked, colour, place, changed, gone):
+    def __init__(self, request, colour, place, changed, gone):
         self._changed, self._gone, self._last = changed, gone, ""
         quantities = {says: name for name, says in listed("maps.quantities").items()}
         colours, laws = listed("maps.colours"), listed("maps.laws")
@@ -34,7 +34,7 @@ class Settings:
         shows |= {name: say(f"maps.{name}") for name in ("seconds", "cells")}
         self.entries = {name: Field(says, shows=shows.get(name, "")) for name, says in spoken.items()}
         self.deep = Hidden(self._deep)
-        self.show(asked, colour, place)
+        self.show(request, colour, place)
         for name, select in self.choices.items():
             select.on("value", partial(self._chosen, name))
         for name, entry in self.entries.items():
@@ -60,13 +60,15 @@ class Settings:
         label = words(say("maps.here"), sizing_mode=None, align="center")
         return flow(label, *(self.entries[f"here_{side}"] for side in SIDES), margin=(4, 0))
 
-    def show(self, asked, colour, place):
+    def show(self, request, colour, place):
         """Shows all inputs of a Map, the colour and the bead."""
-        self._slides = {"body": asked.body, "own": asked.own}
-        for name, value in (("across", asked.across), ("up", asked.up), ("colour", colour), ("law", asked.law)):
+        self._slides = {"body": request.body, "own": request.own}
+        for name, value in (("across", request.across), ("up", request.up), ("colour", colour), ("law", request.law)):
             self.choices[name].put(value=value)
-        self._write_spans(*spans(asked))
-        self._write({name: asked.start[name] for name in FIXED} | {"seconds": asked.seconds, "cells": asked.cells})
+        self._write_spans(*spans(request))
+        self._write(
+            {name: request.start[name] for name in FIXED} | {"seconds": request.seconds, "cells": request.cells}
+        )
         self.show_place(place)
         self._show_rows()
         self._good = {name: entry.value for name, entry in self.entries.items()}
@@ -81,19 +83,19 @@ class Settings:
         self._write_spans(across, up)
         self._changed()
 
-    def asked(self):
+    def request(self):
         """The present inputs, as a Map; raises ValueError, TopError."""
         value = {name: self._number(name) for name in self.entries if not name.startswith("here")}
         chosen = {name: select.value for name, select in self.choices.items()}
         axes = (chosen["across"], chosen["up"])
         cells = value["cells"]
-        asked = Map(**self._slides, across=axes[0], up=axes[1], law=chosen["law"],
+        request = Map(**self._slides, across=axes[0], up=axes[1], law=chosen["law"],
                     across_range=(value["across_from"], value["across_to"]),
                     up_range=(value["up_from"], value["up_to"]), seconds=value["seconds"],
                     cells=int(cells) if cells.is_integer() else cells)  # fmt: skip
-        usual = asked.start
+        usual = request.start
         fixed = tuple((name, value[name]) for name in FIXED if name not in axes and value[name] != usual[name])
-        return replace(asked, values=fixed)
+        return replace(request, values=fixed)
 
     def place(self):
         """The position of the bead that was typed; raises ValueError."""
@@ -169,9 +171,9 @@ class Settings:
             raise ValueError(say("maps.not_a_number", name=name, text=text)) from None
 
 
-def spans(asked):
+def spans(request):
     """The ranges of a Map, across and up."""
-    return asked.across_range, asked.up_range
+    return request.across_range, request.up_range
 
 
 def _called(name, law):

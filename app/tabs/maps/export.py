@@ -35,24 +35,24 @@ def made(level, colour, kind):
     return {"csv": _csv, "npz": _npz}.get(kind, lambda *given: _drawn(*given, kind))(level, colour)
 
 
-def _parameters(asked):
-    fixed = {name: value for name, value in asked.start.items() if name not in (asked.across, asked.up)}
+def _parameters(request):
+    fixed = {name: value for name, value in request.start.items() if name not in (request.across, request.up)}
     units = {name: quantity.unit for name, quantity in QUANTITIES.items()} | {"seconds": "s"} | UNITS
-    top, scales, edge = asked.thing
+    top, scales, edge = request.thing
     own = asdict(top) | {"R": 1e3 * scales.R, "M": scales.M, "g": scales.g, "edge": edge}
-    units |= {"I1": "MR^2", "I3": "MR^2", "M": "kg", "g": "m/s^2", "edge": "R"} | OF_LAW.get(asked.law, {})
-    return asdict(asked) | {"own": own, "values": fixed, "units": units}
+    units |= {"I1": "MR^2", "I3": "MR^2", "M": "kg", "g": "m/s^2", "edge": "R"} | OF_LAW.get(request.law, {})
+    return asdict(request) | {"own": own, "values": fixed, "units": units}
 
 
-def _header(asked):
-    return json.dumps(_parameters(asked), ensure_ascii=False)
+def _header(request):
+    return json.dumps(_parameters(request), ensure_ascii=False)
 
 
 def _csv(level, colour):
     file = io.StringIO()
-    file.write(f"# {_header(level.asked)}\n")
+    file.write(f"# {_header(level.request)}\n")
     table = csv.writer(file)
-    table.writerow((level.asked.across, level.asked.up, "end", *level.columns, "mixed"))
+    table.writerow((level.request.across, level.request.up, "end", *level.columns, "mixed"))
     mixed = level.mixed
     for i, j in np.ndindex(level.end.shape):
         values = (float(column[i, j]) for column in level.columns.values())
@@ -62,8 +62,8 @@ def _csv(level, colour):
 
 def _npz(level, colour):
     file = io.BytesIO()
-    np.savez_compressed(file, allow_pickle=False, parameters=np.array(_header(level.asked)), across=level.x, up=level.y,
-                        end=level.end, mixed=level.mixed, **level.columns)  # fmt: skip
+    np.savez_compressed(file, allow_pickle=False, parameters=np.array(_header(level.request)), across=level.x,
+                        up=level.y, end=level.end, mixed=level.mixed, **level.columns)  # fmt: skip
     return file.getvalue()
 
 
@@ -71,22 +71,22 @@ def _drawn(level, colour, kind):
     import matplotlib
     from matplotlib.figure import Figure
 
-    asked = level.asked
+    request = level.request
     with matplotlib.rc_context({"font.size": 9, "svg.hashsalt": "maps"}):
         figure = Figure(figsize=(7.2, 4.8), layout="constrained")
-        axes = figure.add_subplot(xlabel=with_unit(asked.across), ylabel=with_unit(asked.up))
+        axes = figure.add_subplot(xlabel=with_unit(request.across), ylabel=with_unit(request.up))
         keys = [*_ends(axes, level)] if colour == "end" else _column(figure, axes, level, colour)
-        keys += [*_hatched(axes, level, colour), *_lines(axes, asked)]
-        axes.set(xlim=asked.across_range, ylim=asked.up_range)
+        keys += [*_hatched(axes, level, colour), *_lines(axes, request)]
+        axes.set(xlim=request.across_range, ylim=request.up_range)
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_formatter(_number)
         if keys:
             figure.legend(handles=keys, fontsize=7, loc="outside lower center", ncols=2)
-        figure.suptitle(title(asked, colour))
-        axes.set_title(textwrap.fill(_fixed(asked), 135), fontsize=6.5)
+        figure.suptitle(title(request, colour))
+        axes.set_title(textwrap.fill(_fixed(request), 135), fontsize=6.5)
         file = io.BytesIO()
         undated = {"Date": None} if kind == "svg" else {}
-        figure.savefig(file, format=kind, dpi=DPI, metadata=undated | {"Description": _header(asked)})
+        figure.savefig(file, format=kind, dpi=DPI, metadata=undated | {"Description": _header(request)})
     return file.getvalue()
 
 
@@ -124,8 +124,8 @@ def _hatched(axes, level, colour):
         yield Patch(facecolor="none" if colour == "end" else FAINT, label=say("maps.hatched"), **hatch)
 
 
-def _lines(axes, asked):
-    for name, line in lines(asked):
+def _lines(axes, request):
+    for name, line in lines(request):
         style = DASHES.get(STYLES[name], STYLES[name])
         axes.plot(*line.T, color="#fefefe", linewidth=3)
         yield from axes.plot(*line.T, linestyle=style, color=INK, linewidth=1, label=say(f"maps.lines.{name}"))
@@ -135,31 +135,35 @@ def _number(x, _):
     return written(x, "g")
 
 
-def _fixed(asked):
+def _fixed(request):
     """The values that are the same in all cells, in words."""
-    values, named = _parameters(asked)["values"], listed("maps.quantities")
+    values, named = _parameters(request)["values"], listed("maps.quantities")
     second = values.pop("second", None)
-    said = [f"{named[name]} {written(value, '.4g')} {QUANTITIES[name].unit}".strip() for name, value in values.items()]
-    if second is not None and SECONDS[asked.law]:
-        said.append(f"{listed('maps.seconds_of')[asked.law]}: {written(second, '.4g')}")
-    return "; ".join(filter(None, (body_of(asked), listed("maps.laws")[asked.law], ", ".join(said))))
+    wording = [
+        f"{named[name]} {written(value, '.4g')} {QUANTITIES[name].unit}".strip() for name, value in values.items()
+    ]
+    if second is not None and SECONDS[request.law]:
+        wording.append(f"{listed('maps.seconds_of')[request.law]}: {written(second, '.4g')}")
+    return "; ".join(filter(None, (body_of(request), listed("maps.laws")[request.law], ", ".join(wording))))
 
 
-def python(asked: Map):
+def python(request: Map):
     """A program whose `many` contains what the map shows, row by row from below."""
-    values = {name: repr(float(value)) for name, value in asked.start.items()} | {asked.across: "x", asked.up: "y"}
+    values = {name: repr(float(value)) for name, value in request.start.items()}
+    values |= {request.across: "x", request.up: "y"}
+    (left, right), (bottom, top_end) = request.across_range, request.up_range
     given = ", ".join(f"{name}={value}" for name, value in values.items())
-    tops = {"a", "ratio"} & {asked.across, asked.up}
+    tops = {"a", "ratio"} & {request.across, request.up}
     top = "SimpleNamespace(a=v.a, I1=v.ratio * body.I3, I3=body.I3)" if tops else "body"
     edge = "edge"
-    if {"stem", "rounding"} & {asked.across, asked.up}:
+    if {"stem", "rounding"} & {request.across, request.up}:
         edge = ("np.stack(np.broadcast_arrays(edge[0], (v.stem - v.rounding) / 1e3 / scales.R, "
                 "v.rounding / 1e3 / scales.R), axis=-1)")  # fmt: skip
-    nudge = ", nudge=1e-6" if asked.nudged else ""
-    needs, body = "PRESETS", f"preset = next(preset for preset in PRESETS if preset.name == {asked.body!r})\n"
+    nudge = ", nudge=1e-6" if request.nudged else ""
+    needs, body = "PRESETS", f"preset = next(preset for preset in PRESETS if preset.name == {request.body!r})\n"
     body += "body, scales, edge = preset.top, preset.shape.scales, preset.shape.edge"
-    if asked.own:
-        needs, body = "Scales, Top", f"body, scales, edge = {asked.own.top}, {asked.own.scales}, {asked.own.edge}"
+    if request.own:
+        needs, body = "Scales, Top", f"body, scales, edge = {request.own.top}, {request.own.scales}, {request.own.edge}"
     return f"""\
 from types import SimpleNamespace
 
@@ -167,16 +171,16 @@ import numpy as np
 from tippe_core import {needs}, slide_many
 
 {body}
-part = (np.arange({asked.cells}) + 0.5) / {asked.cells}
-x = {asked.across_range[0]!r} + {asked.across_range[1] - asked.across_range[0]!r} * part  # {with_unit(asked.across)}
-y = ({asked.up_range[0]!r} + {asked.up_range[1] - asked.up_range[0]!r} * part)[:, None]  # {with_unit(asked.up)}
+part = (np.arange({request.cells}) + 0.5) / {request.cells}
+x = {left!r} + {right - left!r} * part  # {with_unit(request.across)}
+y = ({bottom!r} + {top_end - bottom!r} * part)[:, None]  # {with_unit(request.up)}
 v = SimpleNamespace({given})
 time = (v.R / 1e3 / scales.g) ** 0.5
 theta, spin = np.radians(v.tilt), 2 * np.pi * v.spin * time
 start = SimpleNamespace(theta=theta, theta_dot=0.0, omega2=0.0, omega3=spin,
                         vx=-(1 - v.slip) * spin * np.sin(theta), vy=0.0)
 top, edge = {top}, {edge}
-friction = {LAWS[asked.law]}
-many = slide_many(top, start, friction, {asked.seconds!r} / time + 0 * (x + y), edge, rtol={asked.rtol!r}{nudge})
+friction = {LAWS[request.law]}
+many = slide_many(top, start, friction, {request.seconds!r} / time + 0 * (x + y), edge, rtol={request.rtol!r}{nudge})
 print(many.end)
 """

@@ -16,13 +16,13 @@ from app.model.maps.solving import run as one_run
 from app.model.maps.solving import solve
 from app.model.maps.throw import throw_of
 from app.model.runs import MAPS, WORK, Run, Runs, Stopped
-from app.state import asked as sent
+from app.state import validate as sent
 from app.tabs.maps.asking import Settings, spans
 from app.tabs.maps.export import KINDS, made, python
 from app.tabs.maps.picture import CLOCK, MapFigure, RunFigure
 from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import body_of, colours_say, of_reason, of_run, of_worst, title, with_unit
-from app.text import listed, say, told
+from app.text import error_text, listed, say
 from app.widgets.cards import alert, areas, column, flow, note, progress, words
 from app.widgets.copy import Copy
 from app.widgets.download import Download
@@ -59,12 +59,12 @@ class Maps:
     def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
         self.choice, self.level, self._seen, self._outline = MapChoice(), None, None, None
-        self.usual = {"asked": AT_FIRST, "colour": "end", "place": [*AT]}
+        self.usual = {"request": AT_FIRST, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen, self._outline = of_page(scene), scene.profile
-            self.choice.asked = self.usual["asked"] = replace(AT_FIRST, body=self._seen[0], own=self._seen[1])
-        self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
-        self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
+            self.choice.request = self.usual["request"] = replace(AT_FIRST, body=self._seen[0], own=self._seen[1])
+        self.settings = Settings(self.choice.request, "end", self.choice.place, self._set, self._typed_place)
+        self.head, self.bar, self.wording = words(), words(visible=False, margin=(4, 0)), words()
         self.worst, self.key = words(), words(margin=(6, 0))
         self.run_says = words(margin=(6, 0), css_classes=["answer"])
         self.disagree = column()  # what is said, and a button for each
@@ -83,9 +83,9 @@ class Maps:
                      filename=f"tippe-top-map.{kind}", margin=0)
             for kind in KINDS
         ]  # fmt: skip
-        self.choice.param.watch(lambda *events: self.draw(), ["asked", "colour"])
+        self.choice.param.watch(lambda *events: self.draw(), ["request", "colour"])
         self.choice.param.watch(lambda *events: self._show_place(), "place")
-        self.asked = None
+        self.request = None
         self.draw()
 
     @property
@@ -93,7 +93,7 @@ class Maps:
         """The map, the run at the bead with the inputs, and what is below; one below the other if there is little
         room."""
         above = [self.head, pane(self.map.figure),
-                 flow(self.stop, self.closer, self.whole, self.bar, margin=(4, 0)), self.said,
+                 flow(self.stop, self.closer, self.whole, self.bar, margin=(4, 0)), self.wording,
                  words(note(say("maps.hint")))]  # fmt: skip
         below = [self.worst, *self.steady.view, words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)),
                  flow(*self.files), self.python]  # fmt: skip
@@ -111,7 +111,7 @@ class Maps:
         """Uses the top of the page's new scene, if it has changed."""
         body, self._outline = of_page(scene), scene.profile
         if self._seen not in (None, body):
-            self.choice.asked = replace(self.choice.asked, body=body[0], own=body[1])
+            self.choice.request = replace(self.choice.request, body=body[0], own=body[1])
         self._seen = body
 
     # ---- input by hand ----
@@ -119,15 +119,15 @@ class Maps:
     def _set(self):
         """Draws the map of the present settings."""
         try:
-            asked = self.settings.asked()
+            request = self.settings.request()
         except ValueError as error:
             self._refuse(error)
             return
         self.settings.accept()
         colour = self.settings.choices["colour"].value
-        if (asked, colour) == (self.choice.asked, self.choice.colour):
-            self.said.object = ""
-        self.choice.param.update(asked=asked, colour=colour)
+        if (request, colour) == (self.choice.request, self.choice.colour):
+            self.wording.object = ""
+        self.choice.param.update(request=request, colour=colour)
 
     def _typed_place(self):
         try:
@@ -138,19 +138,20 @@ class Maps:
             self.settings.accept()
 
     def _refuse(self, error):
-        why = told(error) if isinstance(error, TopError) else str(error)
+        why = error_text(error) if isinstance(error, TopError) else str(error)
         if not self.settings.refuse(why):
-            self.said.object = alert(why)
+            self.wording.object = alert(why)
 
     def _usual_spans(self):
         return [
-            (QUANTITIES[name].low, QUANTITIES[name].high) for name in (self.choice.asked.across, self.choice.asked.up)
+            (QUANTITIES[name].low, QUANTITIES[name].high)
+            for name in (self.choice.request.across, self.choice.request.up)
         ]
 
     def _around(self):
         """Smaller ranges around the bead, within the present ones."""
         found = []
-        for x, (low, high) in zip(self.choice.place, spans(self.choice.asked), strict=True):
+        for x, (low, high) in zip(self.choice.place, spans(self.choice.request), strict=True):
             wide = (high - low) / CLOSER
             begins = min(max(x - wide / 2, low), high - wide)
             found.append((begins, begins + wide))
@@ -161,58 +162,58 @@ class Maps:
     def draw(self):
         """Draws the map that is chosen; a run under way stops."""
         colour = self.choice.colour
-        asked = replace(self.choice.asked, nudged=colour == "growth")
-        if asked.body == OWN and asked.own is None:  # from a link, in which the page's top is given separately
+        request = replace(self.choice.request, nudged=colour == "growth")
+        if request.body == OWN and request.own is None:  # from a link, in which the page's top is given separately
             body, own = self._seen or (AT_FIRST.body, None)
             try:
-                self.choice.asked = replace(self.choice.asked, body=body, own=own)  # draws it
+                self.choice.request = replace(self.choice.request, body=body, own=own)  # draws it
             except TopError as error:
-                self.choice.asked = self.usual["asked"]
-                self.said.object = alert(told(error))
+                self.choice.request = self.usual["request"]
+                self.wording.object = alert(error_text(error))
             return
-        self.settings.show(self.choice.asked, colour, self.choice.place)
-        self.said.object = ""
-        count = say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
-        axes = f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}"
-        says = note(": ".join(filter(None, (body_of(asked), count)))) + note(axes)
-        self.head.object = f"<h2>{title(asked, colour)}</h2>{says}"
-        if asked == self.asked and self.level is not None:
+        self.settings.show(self.choice.request, colour, self.choice.place)
+        self.wording.object = ""
+        count = say("maps.count", across=request.cells, up=request.cells, count=request.cells**2)
+        axes = f"↑ {with_unit(request.up)} &emsp; → {with_unit(request.across)}"
+        says = note(": ".join(filter(None, (body_of(request), count)))) + note(axes)
+        self.head.object = f"<h2>{title(request, colour)}</h2>{says}"
+        if request == self.request and self.level is not None:
             self._show(self.level)
             return
-        before, self.asked, self.level = self.asked, asked, None
-        self.python.text = python(asked)
-        self.map.begin(asked)
-        for said in (self.key, self.worst):  # they belong to the previous map
-            said.object = ""
+        before, self.request, self.level = self.request, request, None
+        self.python.text = python(request)
+        self.map.begin(request)
+        for wording in (self.key, self.worst):  # they belong to the previous map
+            wording.object = ""
         self.disagree.objects = []
-        self._run = Run(partial(self._work, asked), partial(self._done, asked))
-        known = recall(asked)
+        self._run = Run(partial(self._work, request), partial(self._done, request))
+        known = recall(request)
         self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)
         if known is not None:
             self._show(known)
         self._runs.begin(self._run, "maps", MAPS if known is None else WORK)
-        self._go(self._within(asked, before))
+        self._go(self._within(request, before))
 
-    def _within(self, asked, before):
+    def _within(self, request, before):
         """The position of the bead: unchanged if it is on the map, otherwise in the middle."""
         place = self.choice.place
-        same = before is None or (asked.across, asked.up) == (before.across, before.up)
-        inside = same and all(low <= x <= high for x, (low, high) in zip(place, spans(asked), strict=True))
-        return place if inside else [(low + high) / 2 for low, high in spans(asked)]
+        same = before is None or (request.across, request.up) == (before.across, before.up)
+        inside = same and all(low <= x <= high for x, (low, high) in zip(place, spans(request), strict=True))
+        return place if inside else [(low + high) / 2 for low, high in spans(request)]
 
-    def _work(self, asked, run):
-        while (level := recall(asked)) is None:
-            with claimed(asked) as mine:
+    def _work(self, request, run):
+        while (level := recall(request)) is None:
+            with claimed(request) as mine:
                 if mine:
-                    self._compute(asked, run)
+                    self._compute(request, run)
                     continue
             run.wait(OTHERS)
-        lines(asked)
-        return level, ONCE.find(run, (disagreements, asked), partial(disagreements, level))
+        lines(request)
+        return level, ONCE.find(run, (disagreements, request), partial(disagreements, level))
 
-    def _compute(self, asked, run):
+    def _compute(self, request, run):
         shown = 0.0
-        for level in solve(asked, run.look):
+        for level in solve(request, run.look):
             # messages only now and then: on a slow line more would queue up
             if level.whole or time.monotonic() > shown + PICTURE_EVERY:
                 shown = time.monotonic()
@@ -222,7 +223,7 @@ class Maps:
     def _show_part(self, run, level, share):
         if run is self._run and not run.stopped:
             with pn.io.hold():
-                self.said.object = ""
+                self.wording.object = ""
                 self.bar.object = _bar(100 * share)
                 self._show(level)
 
@@ -231,22 +232,22 @@ class Maps:
         self.map.show(level, self.choice.colour)
         self.key.object = colours_say(level, self.choice.colour)
 
-    def _done(self, asked, result):
+    def _done(self, request, result):
         self.stop.disabled, self.bar.visible = True, False
         if isinstance(result, Stopped):
-            self.said.object = note(say("maps.stopped"))
+            self.wording.object = note(say("maps.stopped"))
             return
         if isinstance(result, Exception):
-            self.said.object = alert(say("maps.failed"))
+            self.wording.object = alert(say("maps.failed"))
             raise result
         level, found = result
         told_of = [(each, k) for each in found for k in range(min(len(each.reasons), WHY))]
         self._ones = [each.reasons[k].one for each, k in told_of]
         with pn.io.hold():
             self._show(level)
-            self.said.object = ""
+            self.wording.object = ""
             self.worst.object = note(of_worst(level))
-            says = [words(of_reason(*each, asked)) for each in told_of] or [words(note(say("maps.agree")))]
+            says = [words(of_reason(*each, request)) for each in told_of] or [words(note(say("maps.agree")))]
             shows = [Button(say("maps.show_one"), partial(self.go, *one, cell=True), kind="link") for one in self._ones]
             self.disagree.objects = joined(
                 [
@@ -264,7 +265,7 @@ class Maps:
             cell = bool(data["cell"][0])
             if not xs or len(xs) != len(ys):
                 return
-        except (sent.Unasked, KeyError, IndexError, TypeError):
+        except (sent.InvalidMessage, KeyError, IndexError, TypeError):
             return
         if len(xs) == 2:
             self.settings.look_at(sorted(xs), sorted(ys))
@@ -287,32 +288,32 @@ class Maps:
             self.choice.place = place
 
     def _show_place(self):
-        asked, (across, up) = self.asked, self.choice.place
+        request, (across, up) = self.request, self.choice.place
         self.map.bead.data = {"x": [across], "y": [up]}
         self.settings.show_place((across, up))
-        done = unless_stopped(partial(self._ran, asked, across, up),
-                              lambda error: setattr(self.run_says, "object", alert(told(error))))  # fmt: skip
-        self._runs.begin(Run(partial(self._run_of, asked, across, up), done), "maps-run")
-        self.steady.show(asked, (across, up))
+        done = unless_stopped(partial(self._ran, request, across, up),
+                              lambda error: setattr(self.run_says, "object", alert(error_text(error))))  # fmt: skip
+        self._runs.begin(Run(partial(self._run_of, request, across, up), done), "maps-run")
+        self.steady.show(request, (across, up))
         self.thrown.visible = self._thrown((across, up)) is not None
 
     @staticmethod
-    def _run_of(asked, across, up, run):
-        return ONCE.find(run, (one_run, asked, across, up), lambda: one_run(asked, across, up, run.look))
+    def _run_of(request, across, up, run):
+        return ONCE.find(run, (one_run, request, across, up), lambda: one_run(request, across, up, run.look))
 
     def _thrown(self, place):
         """The start of the run at a place in the Lab; None if it has none there."""
-        return throw_of(self.asked, *place) if self._throw else None
+        return throw_of(self.request, *place) if self._throw else None
 
     def _to_lab(self, place, look):
         if (start := self._thrown(place)) is not None:
             self._throw(*start, look)
 
-    def _ran(self, asked, across, up, found):
+    def _ran(self, request, across, up, found):
         with pn.io.hold():
-            self.run_says.object = of_run(asked, across, up, found)
-            self.curve.show(found.t, found.theta, asked.seconds)
-            put_motion(self.stage, found.t, found.film, outline_of(asked, asked.at(across, up), self._outline), 0.0)
+            self.run_says.object = of_run(request, across, up, found)
+            self.curve.show(found.t, found.theta, request.seconds)
+            put_motion(self.stage, found.t, found.film, outline_of(request, request.at(across, up), self._outline), 0.0)
 
 
 def _bar(percent):

@@ -61,11 +61,11 @@ class MapFigure:
         fig.js_on_change("inner_width", call("moveBead", fig=fig, hand=self.hand, bead=self.bead, map=self.fine))
         self.hand.on_change("data", lambda attr, old, new: go(new))
 
-    def begin(self, asked):
+    def begin(self, request):
         """Clears the figure for another map."""
-        self.figure.x_range.update(start=asked.across_range[0], end=asked.across_range[1])
-        self.figure.y_range.update(start=asked.up_range[0], end=asked.up_range[1])
-        self._to_axes[0].glyph.x0, self._to_axes[1].glyph.y0 = asked.across_range[0], asked.up_range[0]
+        self.figure.x_range.update(start=request.across_range[0], end=request.across_range[1])
+        self.figure.y_range.update(start=request.up_range[0], end=request.up_range[1])
+        self._to_axes[0].glyph.x0, self._to_axes[1].glyph.y0 = request.across_range[0], request.up_range[0]
         for source in (self.coarse, self.fine, self.mixed, self.lines):
             source.data = {name: [] for name in source.data}
         for word in self.words:
@@ -73,7 +73,7 @@ class MapFigure:
 
     def show(self, level, colour):
         """Shows a level as far as it is computed; the coarser one stays below until it is complete."""
-        left, right, bottom, top = *level.asked.across_range, *level.asked.up_range
+        left, right, bottom, top = *level.request.across_range, *level.request.up_range
         drawn = {"image": [cells(level, colour)], "x": [left], "y": [bottom], "w": [right - left], "h": [top - bottom]}
         self.fine.data = drawn
         if level.whole:
@@ -82,7 +82,7 @@ class MapFigure:
         self._hatch.glyph.hatch_color = DARK if colour == "end" else "#fefefe"  # visible on the cells
         if level.finest:
             self._mark(level)
-            drawn = lines(level.asked)
+            drawn = lines(level.request)
             self.lines.data = {"xs": [line[:, 0] for _, line in drawn], "ys": [line[:, 1] for _, line in drawn],
                                "dash": [DASHES[name] for name, _ in drawn]}  # fmt: skip
 

@@ -13,7 +13,7 @@ from app.model.maps.rates import rates
 from app.model.maps.steady import bifurcation, spins_of
 from app.model.runs import MAPS, WORK, Run, Stopped
 from app.tabs.maps.words import with_unit
-from app.text import listed, say, told
+from app.text import error_text, listed, say
 from app.widgets.cards import Hidden, alert, note, words
 from app.widgets.failure import ended
 from app.widgets.once import ONCE
@@ -79,23 +79,23 @@ class Steady:
                       for name, colour in COLOURS.items())  # fmt: skip
         return [self.rates_title, words(note(key)), row, self.laws, self.powers]
 
-    def show(self, asked, place):
+    def show(self, request, place):
         """Computes and draws the results for the bead at a place of a Map."""
-        x = asked.values_at(*place)
+        x = request.values_at(*place)
         self.here.data = {"x": [x["spin"]] * 2, "y": [0.0, 184.0]}
         moved = {name: value for name, value in x.items() if name != "spin"}
-        key = (asked.body, asked.own, asked.law, asked.seconds, asked.across, asked.up, asked.across_range,
-               asked.up_range, *moved.values(), round(x["spin"], 1))  # fmt: skip
+        key = (request.body, request.own, request.law, request.seconds, request.across, request.up,
+               request.across_range, request.up_range, *moved.values(), round(x["spin"], 1))  # fmt: skip
         if key == self._key:
             return
         self._key = key
         if not self._drawn:  # else the figures still show the previous place
             self.title.object = _title(x)
             for fig in (self.bends, *self.pair):
-                fig.x_range.update(**dict(zip(("start", "end"), spins_of(asked), strict=True)))
+                fig.x_range.update(**dict(zip(("start", "end"), spins_of(request), strict=True)))
         self.says.object = note(say("maps.steady.waits"))
-        wanted = bifurcation, asked, *place
-        work = lambda run: (bifurcation(asked, place, run.look), rates(asked, place, run.look))  # noqa: E731
+        wanted = bifurcation, request, *place
+        work = lambda run: (bifurcation(request, place, run.look), rates(request, place, run.look))  # noqa: E731
         run = Run(lambda run: ONCE.find(run, wanted, partial(work, run)), partial(self._done, key, x))
         self._runs.begin(run, "maps-steady", WORK if wanted in ONCE else MAPS)
 
@@ -106,7 +106,7 @@ class Steady:
             with pn.io.hold():
                 self.title.object = _title(x)
                 self._clear()
-                self.says.object = alert(told(result))
+                self.says.object = alert(error_text(result))
             return
         if isinstance(result, Exception):
             self._key = None  # so that it is computed again
@@ -128,8 +128,8 @@ class Steady:
     def _clear(self):
         """Clears the results of the previous place."""
         self._drawn, self._small = False, None
-        for said in (self.rates_title, self.key, self.laws, self.powers):
-            said.object = ""
+        for wording in (self.rates_title, self.key, self.laws, self.powers):
+            wording.object = ""
         for source in (self.lines, *self.dots, *self.sweeps, self.life, *sum(self.branches.values(), ())):
             source.data = {name: [] for name in source.data}
 
@@ -170,19 +170,19 @@ def _title(x):
 
 def of_life(found):
     """What becomes of the bead's run in the long term, and whether the sweeps up and down differ."""
-    life, said = found.life, []
+    life, wording = found.life, []
     if np.isfinite(life.stands):
-        said.append(say("maps.steady.stands", time=life.stands))
-        said.append(say("maps.steady.leaves", time=life.leaves) if np.isfinite(life.leaves)
+        wording.append(say("maps.steady.stands", time=life.stands))
+        wording.append(say("maps.steady.leaves", time=life.leaves) if np.isfinite(life.leaves)
                     else say("maps.steady.stays", time=life.seconds))  # fmt: skip
     if np.isfinite(life.rolls):
-        said.append(say("maps.steady.rolls", time=life.rolls))
-    said.append(say("maps.steady.end", time=life.seconds, tilt=life.end))
+        wording.append(say("maps.steady.rolls", time=life.rolls))
+    wording.append(say("maps.steady.end", time=life.seconds, tilt=life.end))
     if differ := found.hysteresis:
-        said.append(say("maps.steady.hysteresis", low=differ[0], high=differ[1]))
+        wording.append(say("maps.steady.hysteresis", low=differ[0], high=differ[1]))
     else:
-        said.append(say("maps.steady.no_hysteresis"))
-    return " ".join(said)
+        wording.append(say("maps.steady.no_hysteresis"))
+    return " ".join(wording)
 
 
 def of_laws(laws, x):

@@ -23,35 +23,35 @@ def _patch(style, text):
 
 def colours_say(level, colour):
     """The key of the colours, in words."""
-    said = [f"<h2>{say('maps.colours_say')}</h2>"]
+    wording = [f"<h2>{say('maps.colours_say')}</h2>"]
     if colour == "end":
         named = listed("maps.ends")
-        said.append(f"{say('maps.after', seconds=level.asked.seconds)} ")
-        said += [
+        wording.append(f"{say('maps.after', seconds=level.request.seconds)} ")
+        wording += [
             _patch(f"background: {ends.COLOUR[end]}", named[end]) for end in ends.NAMES if (level.end == end).any()
         ]
     elif found := span(level, colour):
         ramp = ", ".join(Viridis256[::51])
         unit = UNITS[colour]
         least, most = (written(value, ".3g") for value in found[:2])
-        said.append(f'{least} {unit} <span style="display: inline-block; width: 120px; height: 13px; '
+        wording.append(f'{least} {unit} <span style="display: inline-block; width: 120px; height: 13px; '
                     f'background: linear-gradient(90deg, {ramp})"></span> {most} {unit}; ')  # fmt: skip
-        said.append(_patch("background: transparent", say("maps.missing")))
+        wording.append(_patch("background: transparent", say("maps.missing")))
     if level.finest:
-        said.append(_patch(HATCHED, say("maps.hatched")))
+        wording.append(_patch(HATCHED, say("maps.hatched")))
         if colour == "end" and (on_the_way := (level.end == "moving").sum()):
             decided = level.end.size - on_the_way
             text = say("maps.on_the_way", decided=decided, count=level.end.size, moving=on_the_way)
-            said.append(f"<br>{text}")
-        names = dict.fromkeys(name for name, _ in lines(level.asked))
-        said += [f"<br>{swatch('var(--faint)', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names]
-    return "".join(said)
+            wording.append(f"<br>{text}")
+        names = dict.fromkeys(name for name, _ in lines(level.request))
+        wording += [f"<br>{swatch('var(--faint)', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names]
+    return "".join(wording)
 
 
-def of_run(asked, across, up, found):
+def of_run(request, across, up, found):
     """What happened in one run."""
-    says = say("maps.run.says", across=_measured(across, asked.across), up=_measured(up, asked.up),
-               seconds=asked.seconds, end=listed("maps.ends")[found.end])  # fmt: skip
+    says = say("maps.run.says", across=_measured(across, request.across), up=_measured(up, request.up),
+               seconds=request.seconds, end=listed("maps.ends")[found.end])  # fmt: skip
     times = [say("maps.run.passes", time=found.time_90) if np.isfinite(found.time_90) else say("maps.run.never")]
     if np.isfinite(found.time_stem):
         times.append(say("maps.run.stem", time=found.time_stem))
@@ -67,9 +67,9 @@ def of_worst(level):
     return say("maps.worst", energy=power(level.worst("energy_error")), drift=kept) + " " + say("maps.unsettled")
 
 
-def of_reason(found, k, asked):
+def of_reason(found, k, request):
     """The reason number k why runs differ from a closed form; before the first one, where they do."""
-    low, high = written(found.low, ".3g"), _measured(found.high, asked.across)
+    low, high = written(found.low, ".3g"), _measured(found.high, request.across)
     where = say("maps.range", low=low, high=high) if found.low < found.high else say("maps.at", value=high)
     says, (why, count, _) = "", found.reasons[k]
     if k == 0:
@@ -84,16 +84,16 @@ def _measured(value, name):
     return written(value, ".3g") + (f" {unit}" if unit not in ("", "°") else unit)
 
 
-def body_of(asked):
+def body_of(request):
     """The name of the body that slides, if it has one."""
-    return "" if asked.own else listed("build.presets")[asked.body]["name"]
+    return "" if request.own else listed("build.presets")[request.body]["name"]
 
 
-def title(asked, colour):
+def title(request, colour):
     """What is drawn over what."""
     named = listed("maps.quantities")
-    return say("maps.title", colour=listed("maps.colours")[colour], seconds=asked.seconds, across=named[asked.across],
-               up=named[asked.up])  # fmt: skip
+    return say("maps.title", colour=listed("maps.colours")[colour], seconds=request.seconds,
+               across=named[request.across], up=named[request.up])  # fmt: skip
 
 
 def unit_of(name):

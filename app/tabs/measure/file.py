@@ -13,7 +13,7 @@ from app.model.measured.cells import MeasuredError
 from app.model.measured.table import text_inside
 from app.model.measured.unpack import HEAD, LARGEST, MOST, PACKED
 from app.model.runs import Run
-from app.state import asked
+from app.state import validate
 from app.text import say
 from app.widgets.cards import note
 from app.widgets.failure import unless_stopped
@@ -50,22 +50,22 @@ class Brought:
     """file: the input. take: called with a table's text, n if it has every n-th row, and the file's name; refuse: with
     a MeasuredError. said: the words that say that a file is being opened."""
 
-    def __init__(self, runs, take, refuse, said):
-        self._runs, self._take, self._refuse, self._said, self._pieces = runs, take, refuse, said, []
+    def __init__(self, runs, take, refuse, wording):
+        self._runs, self._take, self._refuse, self._wording, self._pieces = runs, take, refuse, wording, []
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
         hear(self.file, table=self._table, piece=self._piece)
 
     def _table(self, event):
-        kinds = asked.text, asked.number, asked.number, asked.text, asked.number
-        text, each, _, name, size = asked.parts(event.new, *kinds)
+        kinds = validate.text, validate.number, validate.number, validate.text, validate.number
+        text, each, _, name, size = validate.parts(event.new, *kinds)
         if each < 1:
             self._refuse(MeasuredError("too-large", size=size / 1000, most=LARGEST / 1000))
         else:
             self._take(text, int(each), name=name)
 
     def _piece(self, event):
-        kinds = asked.text, asked.number, asked.number, asked.number, asked.text, asked.number
-        text, at, count, _, name, size = asked.parts(event.new, *kinds)
+        kinds = validate.text, validate.number, validate.number, validate.number, validate.text, validate.number
+        text, at, count, _, name, size = validate.parts(event.new, *kinds)
         self._pieces = self._pieces if at else []
         if size > PACKED:
             self._refuse(MeasuredError("packed", size=size / 1e6, most=PACKED / 1e6))
@@ -73,12 +73,12 @@ class Brought:
         try:
             self._pieces.append(base64.b64decode(text, validate=True))
         except (binascii.Error, ValueError):
-            raise asked.Unasked("not base64") from None
+            raise validate.InvalidMessage("not base64") from None
         if at != len(self._pieces) - 1 or sum(map(len, self._pieces)) > PACKED:
             self._pieces = []
-            raise asked.Unasked("piece")
+            raise validate.InvalidMessage("piece")
         if len(self._pieces) >= count:
             data, self._pieces = b"".join(self._pieces), []
-            self._said.object = f'<div role="status">{note(say("measure.opens"))}</div>'
+            self._wording.object = f'<div role="status">{note(say("measure.opens"))}</div>'
             done = unless_stopped(lambda found: self._take(*found, name=name), self._refuse, MeasuredError)
             self._runs.begin(Run(lambda run: text_inside(data), done), "open")

@@ -12,7 +12,7 @@ from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
 from app.model.measured.film import Film, opened, unpacked, written
 from app.model.measured.kept import kept
 from app.model.measured.made import LAW, found_of_example, is_stored
-from app.model.measured.remembered import said_of
+from app.model.measured.remembered import stored_fit
 from app.model.measured.shown import placed
 from app.model.measured.table import read
 from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, part_of
@@ -25,7 +25,7 @@ from app.tabs.measure.home import Home
 from app.tabs.measure.places import PLACES, head
 from app.tabs.measure.recipe import recipes
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words
-from app.text import listed, say, told
+from app.text import error_text, listed, say
 from app.widgets.cards import alert, areas, column, flow, note, words
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage
@@ -47,8 +47,8 @@ class Measure:
         self._read, self._of_file, self.filmed = None, None, Filmed()
         self._found, self._kept, self._thinned, self._notes = None, {}, 1, ""
         self._saved = ()  # the fits of a film that is being opened
-        self.said, self.about = words(), words()
-        self.file = Brought(self._runs, self.take, self._not_taken, self.said).file
+        self.wording, self.about = words(), words()
+        self.file = Brought(self._runs, self.take, self._not_taken, self.wording).file
         self.asks = Asks(self._answered)
         self.stage = FilmStage(clock="film", label=say("measure.stage.label"), none=say("measure.stage.none"),
                                sizing_mode="stretch_width", height=300)  # fmt: skip
@@ -82,13 +82,13 @@ class Measure:
             self.home.in_link.value = ["link"]
             self.take(unpacked(self.filmed.film), link=self.filmed.film)
         if self._table is None:
-            wrong = self.said.object
+            wrong = self.wording.object
             self.take_example(FIRST)
-            self.said.object = wrong or self.said.object
+            self.wording.object = wrong or self.wording.object
         found = [self.stage, self.found, self.file, flow(self.start, self.cancel, self.leave, self.take_home),
                  self.home.view, flow(*examples), words(note(say("measure.private"))), flow(*self.recipes),
                  self.about, flow(self.law), self.loose]  # fmt: skip
-        over = [self.said, self.over, self.asks.view, self.pictures.view, self.part]
+        over = [self.wording, self.over, self.asks.view, self.pictures.view, self.part]
         return areas(PLACES, over=over, found=found, table=[self.below, head("constants"), self.constants])
 
     def show(self, scene):
@@ -136,7 +136,7 @@ class Measure:
     # ---- input of data ----
 
     def _wrong(self, sentence):
-        self.said.object = alert(sentence)
+        self.wording.object = alert(sentence)
 
     def _answered(self, table):
         self.columns.show(table)
@@ -184,7 +184,7 @@ class Measure:
     def _not_taken(self, error, each=1):
         self._refused(error, each)
         if self._table is not None:
-            self.said.object += note(say("measure.still", name=self._called))
+            self.wording.object += note(say("measure.still", name=self._called))
 
     def _clear(self):
         """Takes away what was computed of the data, and what is being computed."""
@@ -256,7 +256,7 @@ class Measure:
         except MeasuredError as error:
             self._cannot(error)
             return
-        self.said.object = self._notes
+        self.wording.object = self._notes
         self.start.disabled, self.found.object = False, note(say("measure.ready"))
         top, scales, *_ = self._body
         model, work = self._models()[1], lambda: (placed(model, data), kept(data, top, scales))
@@ -274,8 +274,8 @@ class Measure:
 
     def _shared(self, kind, work):
         """The work of a Run, which is done once for all pages if it is about an example as it is."""
-        asked = kind, self._example, self.law.value, self._loose
-        return partial(ONCE.find, asked=asked, work=work) if self._is_whole_example else lambda run: work()
+        request = kind, self._example, self.law.value, self._loose
+        return partial(ONCE.find, request=request, work=work) if self._is_whole_example else lambda run: work()
 
     @property
     def _is_at_hand(self):
@@ -315,8 +315,8 @@ class Measure:
         self.start.disabled, self.cancel.disabled = False, True
         if isinstance(result, Exception):
             self.take_home.disabled = True
-            said = told(result) if isinstance(result, TopError) else say("measure.failed")
-            self.found.object = note(say("measure.cancelled")) if isinstance(result, Stopped) else alert(said)
+            wording = error_text(result) if isinstance(result, TopError) else say("measure.failed")
+            self.found.object = note(say("measure.cancelled")) if isinstance(result, Stopped) else alert(wording)
             if not isinstance(result, (Stopped, TopError)):
                 raise result
             return
@@ -342,5 +342,5 @@ class Measure:
         """The text of the film with the present fit."""
         top, scales, shape, _ = self._body
         film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape,
-                    tuple(said_of(each) for each in self._found.fits) if self._found else ())  # fmt: skip
+                    tuple(stored_fit(each) for each in self._found.fits) if self._found else ())  # fmt: skip
         return written(film, self._data)

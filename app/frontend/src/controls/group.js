@@ -99,8 +99,8 @@ class Group {
 
   words() { return part("p", { class: "small" }); }
 
-  number({ name, said, lines, marks }) {
-    const control = new Control(name, said, this.model.texts, this.ask);
+  number({ name, wording, lines, marks }) {
+    const control = new Control(name, wording, this.model.texts, this.ask);
     control.slider.dataset.input = name;
     control.note(" ");
     control.element.style.setProperty("--lines", lines);

@@ -6,6 +6,7 @@ import { part, read, say, written } from "../parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, NARROW = 260, WIDE = 5.6, APART = 16; // px: least width of the strip of ends and of a track with marks, a letter below it, a gap between words
+const TYPE = 14; // px: the font size with such letters
 const NEXT = 6; // px between words if one of them is at a mark
 
 // A value between named marks, in words.
@@ -31,14 +32,14 @@ export function clear(places) {
 export class Control {
   /**
    * @param {string} name
-   * @param {Said} said
+   * @param {Wording} wording
    * @param {Record<string, any>} texts
    * @param {(name: string, value: any, typed?: boolean) => void} ask
    */
-  constructor(name, said, texts, ask) {
+  constructor(name, wording, texts, ask) {
     this.name = name;
     this.texts = texts;
-    this.said = said;
+    this.wording = wording;
     this.ask = ask;
     /** @type {{ low: number, high: number, digits: number | null }} */
     this.limits = { low: 0, high: 1, digits: 0 };
@@ -49,18 +50,18 @@ export class Control {
     this.was = /** @type {HTMLElement[]} */ ([]); // what marks the earlier run
     this.share = this.value = 0; // fraction of the track at the present value; the value last shown while the button is held
     const id = `lab-${name}`;
-    this.slider = part("input", { type: "range", id, "aria-label": said.name, oninput: () => {
+    this.slider = part("input", { type: "range", id, "aria-label": wording.name, oninput: () => {
       this.put(Number(this.slider.value));
       ask(name, Number(this.slider.value));
     } });
-    this.number = entry({ "aria-label": said.typed, "aria-describedby": `${id}-wrong` }, (typed) => this.send(typed), () => this.write(this.text));
+    this.number = entry({ "aria-label": wording.typed, "aria-describedby": `${id}-wrong` }, (typed) => this.send(typed), () => this.write(this.text));
     this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
     this.below = part("div", { class: "below" });
     this.remark = part("p", { class: "small", role: "status" });
-    const label = part("label", { for: id, title: said.hint }, said.name);
-    if (said.html) label.innerHTML = said.html;
+    const label = part("label", { for: id, title: wording.hint }, wording.name);
+    if (wording.html) label.innerHTML = wording.html;
     this.element = part("div", { class: "ctl" }, label,
-      part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.remark, this.wrong);
+      part("span", {}, this.number, part("span", { class: "unit" }, wording.unit)), this.slider, this.below, this.remark, this.wrong);
   }
 
   // Requests what was typed.
@@ -92,7 +93,7 @@ export class Control {
 
   /** @param {number} value */
   speak(value) {
-    return this.marks.length ? between(value, this.marks, this.texts) : `${this.print(value)} ${this.said.speaks ?? this.said.unit}`;
+    return this.marks.length ? between(value, this.marks, this.texts) : `${this.print(value)} ${this.wording.speaks ?? this.wording.unit}`;
   }
 
   // Never overwrites what a person is typing. Selected text stays selected, otherwise typing would append to it.
@@ -140,13 +141,13 @@ export class Control {
     this.element.classList.toggle("bad", Boolean(message));
     this.remark.textContent = state.remarks?.[this.name] ?? "";
     this.remark.hidden = !this.remark.textContent;
-    explain(this.wrong, message, message ? this.ways(state.nearest[this.name], kept, own) : [], Boolean(this.said.html));
+    explain(this.wrong, message, message ? this.ways(state.nearest[this.name], kept, own) : [], Boolean(this.wording.html));
   }
 
   // The ways out of an error.
   /** @param {number | undefined} nearest the nearest allowed value @param {number} kept the last valid one @param {number} [own] that of the field @returns {[string, () => void][]} */
   ways(nearest, kept, own = kept) {
-    const unit = `${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}`;
+    const unit = `${this.wording.unit && this.wording.unit !== "°" ? " " : ""}${this.wording.unit}`;
     const says = (text, value) => say(this.texts, text, { value: `${value}${unit}` });
     /** @type {[string, () => void]} */
     const back = [says(this.texts.back, this.print(own)), () => this.ask(this.name, kept)];
@@ -154,13 +155,13 @@ export class Control {
   }
 
   // A remark on the value, plain text unless its name is HTML.
-  /** @param {string} [said] */
-  note(said) {
-    if (said === this.noted) return;
-    this.noted = said;
-    const words = part("p", { class: "small" }, said ?? "");
-    if (this.said.html) words.innerHTML = said;
-    this.below.replaceChildren(...(said || this.said.html ? [words] : []));
+  /** @param {string} [wording] */
+  note(wording) {
+    if (wording === this.noted) return;
+    this.noted = wording;
+    const words = part("p", { class: "small" }, wording ?? "");
+    if (this.wording.html) words.innerHTML = wording;
+    this.below.replaceChildren(...(wording || this.wording.html ? [words] : []));
   }
 
   // Like the text that was typed.
@@ -194,8 +195,8 @@ export class Control {
     for (const old of this.was) old.remove();
     this.was = [];
     if (value === undefined || !bar || value < low || value > high) return;
-    const said = say(this.texts, this.texts.was, { value: [value, value % 1 ? 1 : 0] }), style = `left: ${this.along((value - low) / (high - low))}`;
-    this.was = [part("i", { class: "was", title: said, style }), part("b", { style }, said)];
+    const wording = say(this.texts, this.texts.was, { value: [value, value % 1 ? 1 : 0] }), style = `left: ${this.along((value - low) / (high - low))}`;
+    this.was = [part("i", { class: "was", title: wording, style }), part("b", { style }, wording)];
     bar.append(this.was[0]);
     line.append(this.was[1]);
     this.fitWas(line, this.was[1]);
@@ -229,7 +230,7 @@ export class Control {
     }
     bar.setAttribute("aria-label", `${this.texts.ends}: ${ends.map(([from, to, , word]) => `${this.digits(from)}–${this.digits(to)} ${word}`).join("; ")}`);
     bar.append(...ends.map(([from, to, code, word]) => part("span", {
-      class: `end ${code}`, title: `${this.digits(from)}–${this.digits(to)} ${this.said.unit}: ${word}`,
+      class: `end ${code}`, title: `${this.digits(from)}–${this.digits(to)} ${this.wording.unit}: ${word}`,
       style: `left: ${at(from)}; right: calc(100% - ${at(to)})`,
     })), this.mark);
     this.below.replaceChildren(bar, this.words(ends));
@@ -247,10 +248,11 @@ export class Control {
     else {
       const [left, right] = large[0] < next[0] ? [large, next] : [next, large];
       const [from, at] = [left, right].map(([start]) => (start - low) / (high - low));
-      const letters = WIDE * (left[3].length + right[3].length), room = (at - from) * WIDTH > WIDE * left[3].length + APART;
+      const wide = (WIDE * Math.max(TYPE, parseFloat(getComputedStyle(this.element).fontSize) || 0)) / TYPE;
+      const letters = wide * (left[3].length + right[3].length), room = (at - from) * WIDTH > wide * left[3].length + APART;
       if (room || letters + APART < (1 - first) * WIDTH) line.append(part("span", {}, left[3]));
       if (room) Object.assign(line.children[0].style, { position: "absolute", left: this.along(from) }); // below its own part
-      if ((room || at * WIDTH > WIDE * left[3].length + APART) && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
+      if ((room || at * WIDTH > wide * left[3].length + APART) && (1 - at) * WIDTH > wide * right[3].length + APART && letters < WIDTH) {
         line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
       }
       line.append(part("span", { style: "margin-left: auto" }, right[3]));

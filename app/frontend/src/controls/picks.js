@@ -7,9 +7,9 @@ export class Picks {
   /** @param {Control[]} controls @param {string} label */
   constructor(controls, label) {
     this.controls = controls;
-    this.buttons = controls.map(({ name, said }) => {
-      const button = part("button", { type: "button", onclick: () => this.pick(name) }, part("span", {}, said.name), part("b"));
-      if (said.symbol) button.firstElementChild.innerHTML = said.symbol;
+    this.buttons = controls.map(({ name, wording }) => {
+      const button = part("button", { type: "button", onclick: () => this.pick(name) }, part("span", {}, wording.name), part("b"));
+      if (wording.symbol) button.firstElementChild.innerHTML = wording.symbol;
       return button;
     });
     this.element = part("div", { class: "picks", role: "group", "aria-label": label }, ...this.buttons);
@@ -26,8 +26,8 @@ export class Picks {
 
   // The values as their fields have them; a refused one is picked, a hidden one is not.
   show() {
-    for (const [i, { element, said, number }] of this.controls.entries()) {
-      const { unit } = said;
+    for (const [i, { element, wording, number }] of this.controls.entries()) {
+      const { unit } = wording;
       this.buttons[i].hidden = element.hidden;
       this.buttons[i].lastElementChild.textContent = `${number.value}${unit && unit !== "°" ? " " : ""}${unit}`;
     }

@@ -9,8 +9,10 @@ import { Frames } from "../motion/frames.js";
 
 const NAMES = ["energy", "spin", "path", "trace"];
 const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // shown at the pointer; names of numbers.js
-const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
-const ROOM = 30, LINE = 24; // px: the room that words need in a picture; a line of text between two curves
+const RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
+// In font sizes: what stands left of a plot; the room that words need in a picture; a line of text between two curves; how
+// long the name of the spin, the heights and the cause of the heat are.
+const LEFT = 3.3, ROOM = 2.1, LINE = 1.7, SPINS = 2.5, NUMBERS = 9.5, CAUSE = 10.3;
 const MOST_POINTS = 2400;
 const NAMED = [0.3, 0.15, 0.45, 0.6, 0.75, 0.02]; // fractions of the earlier run at which its name may be
 const JUMP = 0.5; // R: the contact moves this far between two frames only if another part of the top touches down
@@ -79,7 +81,7 @@ export class Answer {
   /** @param {PointerEvent} event */
   point({ clientX, clientY }) {
     const { readout, curves, name, texts } = this, box = this.plot.getBoundingClientRect(), x = clientX - box.left;
-    const t = ((x - LEFT) / (this.right - LEFT)) * (this.time.span || 1);
+    const t = ((x - this.left) / (this.right - this.left)) * (this.time.span || 1);
     readout.hidden = !READ[name] || !curves?.count || t < 0 || t > this.time.end;
     if (readout.hidden) return;
     readout.textContent = lineOf(texts, curves, READ[name], t);
@@ -101,18 +103,23 @@ export class Answer {
     this.draw();
   }
 
+  // font size in px
+  get size() { return parseFloat(getComputedStyle(this.plot).fontSize); }
+
+  get left() { return LEFT * this.size; }
+
   get right() { return this.width - RIGHT; }
 
-  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
+  x = (t) => this.left + ((this.right - this.left) * t) / (this.time.span || 1);
 
   draw() {
-    const { clientWidth: width, clientHeight: height } = this.plot, { scene, name, texts } = this, said = texts.answers[name];
+    const { clientWidth: width, clientHeight: height } = this.plot, { scene, name, texts } = this, wording = texts.answers[name];
     this.choice.show(name);
-    this.title.textContent = said.question;
-    this.plot.setAttribute("aria-label", said.question);
-    this.drawing.setAttribute("aria-label", said.note);
+    this.title.textContent = wording.question;
+    this.plot.setAttribute("aria-label", wording.question);
+    this.drawing.setAttribute("aria-label", wording.note);
     if (!width || !scene) return;
-    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note,
+    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), wording.note,
       ...(this.before && name !== "trace" ? [texts.note_then] : []), name === "trace" && scene.run?.trace ? ` ${scene.run.trace}` : "");
     Object.assign(this, { width, height, bottom: height - FOOT });
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
@@ -141,7 +148,7 @@ export class Answer {
   axes(least, most, unit, apart = 90) {
     const y = (value) => this.bottom - ((this.bottom - TOP) * (value - least)) / (most - least || 1), up = ticks(least, most, Math.max(2, this.height / apart));
     const number = (value) => say(this.texts, value === up.at(-1) ? `{value} ${unit}` : "{value}", { value: [value, Math.abs(value % 1) > 1e-9 ? 1 : 0] });
-    return { y, found: [...grid(up, { y, left: LEFT, right: this.right }, number), ...marks(ticks(0, this.time.span || 1, 6), this, times(this.texts))] };
+    return { y, found: [...grid(up, { y, left: this.left, right: this.right }, number), ...marks(ticks(0, this.time.span || 1, 6), this, times(this.texts))] };
   }
 
   // The earlier run, one quantity.
@@ -164,25 +171,26 @@ export class Answer {
   }
 
   energy() {
-    const { curves, texts } = this, said = texts.answers.energy, start = curves.value(0, ENERGY);
+    const { curves, texts } = this, wording = texts.answers.energy, start = curves.value(0, ENERGY);
     const levels = this.levels(), { y, found } = this.axes(0, 1.03 * Math.max(this.range(ENERGY)[1], ...levels.map(([, level]) => level)), "mm");
-    const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${LEFT},${this.bottom}`;
+    const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${this.left},${this.bottom}`;
     const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
     const words = [], put = (share, height, text, more, kind) => words.push(
       drawn("text", { class: `word halo ${kind}`, x: this.x(t(share)), y: height }, text),
       ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height, dy: "1.3em" }, more)] : []));
-    if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin, "", "washed");
-    const long = 112 / (this.right - LEFT), wide = 130 / (this.right - LEFT);
-    const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > LINE);
+    const [brief, long, wide] = [SPINS, NUMBERS, CAUSE].map((length) => (length * this.size) / (this.right - this.left));
+    const room = ROOM * this.size, high = LINE * this.size, [low, top] = [HEIGHT, ENERGY].map((column) => at(0.04 + brief, column));
+    if (low - top > room) put(0.04, (low + top) / 2 + 4, wording.spin, "", "washed");
+    const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > high);
     const free = [0.4, 0.3, 0.2, 0.08, 0.02].find(isFree), stands = free ?? 0.4;
-    const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
+    const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? wording.height_same : wording.height;
     const over = (column) => Math.min(...[0, 0.5, 1].map((of) => at(stands + of * long, column))) - 8;
-    const isHigh = this.bottom - at(stands, HEIGHT) > ROOM && this.bottom - at(stands + long, HEIGHT) > ROOM;
+    const isHigh = this.bottom - at(stands, HEIGHT) > room && this.bottom - at(stands + long, HEIGHT) > room;
     // above the area of the height; if the energy leaves no room there, inside it; if it is too low, above both
     const [height, kind] = free ? [over(HEIGHT), "washed"] : isHigh ? [this.bottom - 10, "inside"] : [over(ENERGY), ""];
-    const under = (share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY), kind ? Infinity : height - LINE);
-    const lost = [0.42, 0.3, 0.55].find((share) => under(share) - y(start) > 2 * ROOM);
-    if (lost) put(lost, (under(lost) + y(start)) / 2, said.heat, said.heat_by, "");
+    const under = (share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY), kind ? Infinity : height - high);
+    const lost = [0.42, 0.3, 0.55].find((share) => under(share) - y(start) > 2 * room);
+    if (lost) put(lost, (under(lost) + y(start)) / 2, wording.heat, wording.heat_by, "");
     put(stands, height, say(texts, text, { least: [least, 0], most: [most, 0] }), "", kind);
     return [
       ...found,
@@ -204,9 +212,9 @@ export class Answer {
   }
 
   spin() {
-    const { curves, texts } = this, said = texts.answers.spin;
+    const { curves, texts } = this, wording = texts.answers.spin;
     const [least, most] = this.range(SPIN, TURNING), room = 0.06 * (most - least || 1);
-    const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, said.unit, 60);
+    const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, wording.unit, 60);
     let widest = 0, apart = 0; // where the two lines are farthest apart
     for (let share = 0.2; share < 0.7; share += 0.05) {
       const gap = Math.abs(y(curves.at(share * curves.end, SPIN)) - y(curves.at(share * curves.end, TURNING)));
@@ -215,10 +223,10 @@ export class Answer {
     const words = [], put = (share, column, side, text) => words.push(drawn("text", {
       class: `word halo ${column === SPIN ? "own" : ""}`, x: this.x(share * curves.end), y: y(curves.at(share * curves.end, column)) + (side > 0 ? 20 : -10),
     }, text));
-    if (apart < 2 * ROOM) put(0.4, SPIN, curves.at(0.4 * curves.end, SPIN) > (most + Math.min(least, 0)) / 2 ? 1 : -1, said.both);
+    if (apart < 2 * ROOM * this.size) put(0.4, SPIN, curves.at(0.4 * curves.end, SPIN) > (most + Math.min(least, 0)) / 2 ? 1 : -1, wording.both);
     else {
-      put(widest, TURNING, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? -1 : 1, said.above);
-      put(widest, SPIN, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? 1 : -1, said.own);
+      put(widest, TURNING, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? -1 : 1, wording.above);
+      put(widest, SPIN, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? 1 : -1, wording.own);
     }
     return [
       ...found, ...this.then(y, SPIN), drawn("polyline", { class: "turning", points: curves.points(this.x, y, TURNING) }),

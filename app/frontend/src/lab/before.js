@@ -65,9 +65,9 @@ export class Before {
   }
 
   words(what, run, next) {
-    const { texts } = this, said = (name) => texts.inputs[name]?.name ?? next.state.of[name][2] ?? texts.toy;
-    const value = (scene, name) => scene.state.of[name][1].replace(`${said(name)} `, "");
-    const changed = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
+    const { texts } = this, wording = (name) => texts.inputs[name]?.name ?? next.state.of[name][2] ?? texts.toy;
+    const value = (scene, name) => scene.state.of[name][1].replace(`${wording(name)} `, "");
+    const changed = what.map((name) => say(texts, texts.changed, { name: wording(name), from: value(run, name), to: value(next, name) })).join("; ");
     const isTable = what.includes("table"); // then the stage says enough
     return {
       canGoBack: !what.includes("toy") || run.state.toy === run.state.of.toy?.[0], // a body without a name cannot be requested

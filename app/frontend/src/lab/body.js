@@ -11,7 +11,7 @@ export function foldOf(texts, ask, word, of, ...first) {
     element.hidden = !wanted.length;
     if (JSON.stringify(wanted) !== names) {
       names = JSON.stringify(wanted);
-      controls = wanted.map(([name, said, unit]) => new Control(name, { name: said, typed: said, unit }, texts, ask));
+      controls = wanted.map(([name, wording, unit]) => new Control(name, { name: wording, typed: wording, unit }, texts, ask));
       place.replaceChildren(...controls.map((control) => control.element));
     }
     for (const control of controls) {

@@ -19,7 +19,7 @@ export function onCap({ x, y, z }) {
  * @param {Record<string, any>} texts @param {{ bytes: Bytes, a: number, unit: number, width: number, height: number }} of
  */
 export function caps(texts, { bytes, a, unit, width, height }) {
-  const frames = new Frames(bytes), trace = traceOf(frames, a), said = texts.answers.trace;
+  const frames = new Frames(bytes), trace = traceOf(frames, a), wording = texts.answers.trace;
   const r = Math.max(Math.min((height - ROOM - 12) / 2, width / 4 - 8), 10), y0 = (height - ROOM) / 2;
   const middle = (cap) => width / 2 + (cap ? 1 : -1) * (r + 6);
   const at = trace.marks.map((mark) => {
@@ -34,7 +34,7 @@ export function caps(texts, { bytes, a, unit, width, height }) {
   const words = [0, 1].flatMap((cap) => [
     ...RINGS.slice(0, 2).map((ring) => drawn("text", { class: "halo", x: middle(cap), y: y0 + (r * ring) / 90 - 4, "text-anchor": "middle" },
       say(texts, "{tilt}°", { tilt: [cap ? 180 - ring : ring, 0] }))),
-    drawn("text", { x: middle(cap), y: y0 + r + ROOM - 4, "text-anchor": "middle" }, said.caps[cap]),
+    drawn("text", { x: middle(cap), y: y0 + r + ROOM - 4, "text-anchor": "middle" }, wording.caps[cap]),
   ]);
   const moveTo = (t) => {
     const count = passedBy(trace, frames.place(t / unit) + 1e-9), i = Math.max(count - 1, 0), [, x, y] = at[i];

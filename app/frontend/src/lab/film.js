@@ -76,7 +76,7 @@ export class Film {
     this.drawStrip(origin);
     this.drawRing(origin);
     for (const box of [stage.pill, stage.chip, stage.missing]) if (box.clientWidth) paintBox(pen, box, origin);
-    for (const said of [stage.pill, stage.chip, stage.missing, stage.ring, ...stage.captions, strip.clock, this.pace, words.element]) paintWords(pen, said, origin);
+    for (const wording of [stage.pill, stage.chip, stage.missing, stage.ring, ...stage.captions, strip.clock, this.pace, words.element]) paintWords(pen, wording, origin);
   }
 
   // The line as it is before and after any of it has been played, each on its side of the present time.

@@ -11,7 +11,7 @@ const sizeOf = ({ push_units: [mN, N], decimal }, small) => say({ decimal }, sma
 /** @param {Record<string, any>} texts @param {Record<string, any>} state @returns {Pushed[]} */
 export const pushesIn = (texts, { of, R, impulse }) => (of?.pushes[0] ?? "").split("~").filter(Boolean).map((row) => {
   const [t, ...numbers] = row.split("_").map(Number), given = numbers.slice(3);
-  return { t, point: numbers.slice(0, 3).map((x) => x / R), impulse: given.map((x) => x / impulse), said: sizeOf(texts, Math.hypot(...given)) };
+  return { t, point: numbers.slice(0, 3).map((x) => x / R), impulse: given.map((x) => x / impulse), wording: sizeOf(texts, Math.hypot(...given)) };
 });
 
 const FIRST = 0.001; // s: a top that has just been let go can be pushed too
@@ -26,9 +26,9 @@ export class Flicking {
 
   hold = (held) => this.lab.time.seek(this.lab.time.t, held);
 
-  saidSize = (size) => sizeOf(this.lab.model.texts, size * this.lab.state.impulse);
+  sizeText = (size) => sizeOf(this.lab.model.texts, size * this.lab.state.impulse);
 
-  saidTurns = (turns) => say(this.lab.model.texts, this.lab.model.texts.lets_go, { turns: [this.within(turns), 0] });
+  turnsText = (turns) => say(this.lab.model.texts, this.lab.model.texts.lets_go, { turns: [this.within(turns), 0] });
 
   // The nearest spin that can be set.
   within(turns) {

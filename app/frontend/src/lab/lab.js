@@ -41,7 +41,7 @@ export class Lab {
     /** @type {Record<string, any>} */
     this.state = {};
     this.time = new Time(coalesce(() => this.at(), life), life);
-    this.asking = new Asking((...asked) => (model.asked = asked));
+    this.asking = new Asking((...request) => (model.request = request));
     this.press = new Press(life);
     const ask = (name, value) => this.ask(name, value);
     this.sound = new Sound();

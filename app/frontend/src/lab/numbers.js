@@ -11,7 +11,7 @@ export function numbersOf(texts) {
   let curves = /** @type {any} */ (null), now = 0;
   const at = (/** @type {number} */ t) => {
     now = t;
-    if (element.open && curves?.count) ROWS.forEach(([name, column, digits], i) => (cells[i].textContent = said(texts, curves, name, column, digits, t)));
+    if (element.open && curves?.count) ROWS.forEach(([name, column, digits], i) => (cells[i].textContent = wording(texts, curves, name, column, digits, t)));
   };
   const element = part("details", { class: "numbers", ontoggle: () => at(now) }, part("summary", {}, texts.numbers),
     part("table", {}, part("tbody", {}, ...ROWS.map(([name], i) => part("tr", {}, part("th", { scope: "row" }, texts.number[name][0]), cells[i])))));
@@ -19,10 +19,10 @@ export function numbersOf(texts) {
 }
 
 // A quantity at a time, with its unit.
-const said = (texts, curves, name, column, digits, t) =>
+const wording = (texts, curves, name, column, digits, t) =>
   say(texts, `{value}${texts.number[name][1]}`, { value: [column === TIME ? t : curves.at(t, column), digits] });
 
 // Some of them in one line, to be shown at the pointer.
 /** @param {Record<string, any>} texts @param {import("../motion/curves.js").Curves} curves @param {string[]} names @param {number} t */
 export const lineOf = (texts, curves, names, t) => ROWS.filter(([name]) => name === "t" || names.includes(name))
-  .map(([name, column, digits]) => `${name === "t" ? "" : `${texts.number[name][0]} `}${said(texts, curves, name, column, digits, t)}`).join(" · ");
+  .map(([name, column, digits]) => `${name === "t" ? "" : `${texts.number[name][0]} `}${wording(texts, curves, name, column, digits, t)}`).join(" · ");

@@ -38,8 +38,9 @@ export class Stage {
     this.ring = part("div", { class: "ring" }, drawn("svg", { viewBox: "0 0 130 34", "aria-hidden": "true" },
       drawn("path", { d: RING, fill: "none", stroke: "currentColor", "stroke-width": 3, "stroke-linecap": "round" }),
       drawn("path", { d: "M128 19l-16 9-1-13z", fill: "currentColor" })), this.turns);
-    this.then = part("span");
-    this.chip = part("div", { class: "chip", hidden: true }, this.then,
+    this.then = part("span", { class: "whole" });
+    this.briefly = part("span", { class: "brief" });
+    this.chip = part("div", { class: "chip", hidden: true }, this.then, this.briefly,
       part("button", { type: "button", "aria-label": texts.forget, title: texts.forget, onclick: forget }, "×"));
     this.boxes = SHOWS.map((name) => part("input", { type: "checkbox", name, onchange: (event) => set(name, event.target.checked) }));
     this.menu = part("details", { class: "shows" }, part("summary", {}, texts.show), part("div", { class: "list" }, ...SHOWS.map((name, i) => {
@@ -102,9 +103,11 @@ export class Stage {
   // The earlier run in words.
   /** @param {number} t */
   beforeAt(t) {
-    const { scene: { before }, texts, chip, then } = this, shown = Boolean(before?.curves[before.table].count);
+    const { scene: { before }, texts, chip, then, briefly } = this, shown = Boolean(before?.curves[before.table].count);
     chip.hidden = !shown;
-    if (shown) then.textContent = say(texts, texts.before, { what: before.what, tilt: [thenAt(before, t, TILT), 0] });
+    if (!shown) return;
+    const numbers = { what: before.what, tilt: [thenAt(before, t, TILT), 0] };
+    [then.textContent, briefly.textContent] = [texts.before, texts.before_brief].map((text) => say(texts, text, numbers));
   }
 
   /** @param {number} t */

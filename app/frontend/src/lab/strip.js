@@ -4,7 +4,6 @@ import { FOOT, LEFT, levels, marks, RIGHT, TimeLine, times } from "../figures/li
 import { drawn, icon, part, say } from "../parts.js";
 import { SPEEDS } from "./time.js";
 
-const HEADROOM = 36; // px above the plot
 const GAP = 6; // px between the plot and what is left of it
 const LETTER = 0.51; // mean width of a letter, in units of the font size
 const NARROW = 660; // px: a narrower strip uses short words
@@ -59,7 +58,7 @@ export class Strip extends TimeLine {
   draw() {
     const { clientWidth: width, clientHeight: height } = this.plot, { scene } = this;
     if (!width || !scene) return;
-    Object.assign(this, { width, top: HEADROOM, bottom: height - FOOT });
+    Object.assign(this, { width, top: 19 + 1.2 * this.size, bottom: height - FOOT });
     this.writeSpeeds();
     const shown = scene.table === "three" ? TABLES : [scene.table];
     const lines = shown.filter((table) => scene.curves[table].count).map((table) => {

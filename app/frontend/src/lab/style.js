@@ -68,7 +68,8 @@ const stage = `
 .switch { display: inline-flex; } .switch > b { align-self: center; padding: 0 8px 0 10px; }
 .on > select { padding: 0 8px; min-height: calc(var(--touch) + 2px); min-width: 0; max-width: 46%; text-overflow: ellipsis; font-weight: 600; }
 .chip { position: absolute; left: 16px; top: 64px; display: flex; align-items: center; background: var(--ground); border-radius: 16px; padding-left: 12px; font-variant-numeric: tabular-nums; }
-.chip button { padding: 0; width: var(--touch); font-size: var(--t-l); border-radius: 16px; }
+.chip button { padding: 0; width: var(--touch); font-size: var(--t-l); border-radius: 16px; } .chip .brief { display: none; }
+@container (max-width: 1180px) { .lab > .answer .plot { min-height: 150px; } .chip .whole { display: none; } .chip .brief { display: inline; } .lab > .answer .titled { flex-wrap: wrap; } .lab > .answer h2 { flex-basis: 100%; } }
 .law { display: none; } .lab[data-level=research] .law { display: grid; gap: 8px; justify-items: start; padding: 4px 0 8px; } .law .seg { flex-wrap: wrap; }
 .touches { display: flex; gap: 8px; align-items: center; min-height: var(--touch); cursor: pointer; } .touches input { width: 18px; height: 18px; margin: 0; accent-color: var(--accent); }
 .shows { position: absolute; right: 16px; bottom: 12px; background: var(--ground); border-radius: 8px; max-height: calc(100% - 80px); overflow: auto; }
@@ -115,7 +116,7 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 `;
 
 const answer = `
-.answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; margin-top: 4px; } .answer :where(.energy, .own, .turning, .past) { stroke-width: 2; }
+.answer { display: flex; flex-direction: column; } .answer > * { flex: none; } .answer .plot { flex: 1; min-height: 200px; margin-top: 4px; } .answer :where(.energy, .own, .turning, .past) { stroke-width: 2; }
 svg .washed { stroke: var(--wash); } svg .inside { fill: var(--ground); stroke: var(--lift); }
 .answer { --wash: var(--q-energy-wash); --lift: var(--q-energy); }
 .lab.old .answer { --wash: color-mix(in srgb, var(--q-energy-wash) 38%, var(--ground)); --lift: color-mix(in srgb, var(--q-energy) 38%, var(--ground)); }
@@ -132,7 +133,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 10
 .half { font-size: var(--t-s); color: var(--ink-2); } th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
 thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
 .kept, .kept + .small { white-space: nowrap; display: inline-block; } .kept { margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
-@container (max-width: 700px) { .lab > .answer .plot { flex: none; height: 240px; } .large { padding: 16px; width: 100vw; height: 100vh; border-radius: 0; } :is(.lab > .answer, .large) .titled { flex-wrap: wrap; } .lab > .answer h2 { flex-basis: 100%; } .mini button { min-height: 44px; min-width: 44px; } }
+@container (max-width: 700px) { .lab > .answer .plot { flex: none; height: 240px; } .large { padding: 16px; width: 100vw; height: 100vh; border-radius: 0; } .large .titled { flex-wrap: wrap; } .mini button { min-height: 44px; min-width: 44px; } }
 `;
 
 const controls = `
@@ -150,7 +151,7 @@ ${progress}:is(.numbers, .body) { border-top: 1px solid var(--line); border-bott
 .words b { position: absolute; transform: translateX(-50%); color: var(--ink); font-weight: 400; }
 @container (max-width: 700px) {
   .controls { display: contents; } .dock { gap: 0; } .controls .titled { align-items: center; } .controls h2 { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
-  .chip { top: 60px; left: 8px; max-width: calc(100% - 118px); } .chip span { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; } .chip button { flex: none; height: 44px; }
+  .chip { top: 60px; left: 8px; white-space: nowrap; } .chip button { flex: none; height: 44px; }
   .pill { max-width: calc(100% - 184px); line-height: 1.2; }
   .shows { left: 16px; right: auto; bottom: 48px; max-height: calc(100% - 170px); } .shows summary { min-height: 44px; padding: 12px; }
   .wait { gap: 6px; } .wait progress { width: 32px; } .wait .small { white-space: nowrap; } .wait .outline { min-height: 44px; padding: 0 10px; }

@@ -29,16 +29,16 @@ export function wordsOf(texts, ask, goBack) {
     },
     at(/** @type {number} */ t) {
       const { state, run, before, table, waits } = scene;
-      let said = latest(run?.stages ?? [], t)?.slice(1, 3) ?? ["", run?.why ?? ""];
-      if (table === "three") said = state.said;
-      if (waits) said = [say(texts, texts.working, { what: state.wants }), say(texts, texts.working_why, { what: state.old })];
-      else if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];
+      let wording = latest(run?.stages ?? [], t)?.slice(1, 3) ?? ["", run?.why ?? ""];
+      if (table === "three") wording = state.wording;
+      if (waits) wording = [say(texts, texts.working, { what: state.wants }), say(texts, texts.working_why, { what: state.old })];
+      else if (state.old) wording = [say(texts, texts.still, { what: state.old }), texts.still_why];
       above.hidden = !before?.compared || Boolean(state.old);
       back.hidden = !before?.canGoBack;
       lesson.hidden = !lesson.textContent || waits || Boolean(state.old);
-      if (said.join() === written) return;
-      written = said.join();
-      [headline.textContent, why.textContent] = said;
+      if (wording.join() === written) return;
+      written = wording.join();
+      [headline.textContent, why.textContent] = wording;
     },
   };
 }

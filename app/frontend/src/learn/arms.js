@@ -11,8 +11,8 @@ const ROW = 6; // numbers for each moment: the axis, G, and the foot of the perp
 export const turned = ([across, along], [e, f]) => [across * f + along * e, 1 - across * e + along * f];
 
 export class Arms {
-  /** @param {Record<string, string>} said */
-  constructor(said) {
+  /** @param {Record<string, string>} wording */
+  constructor(wording) {
     this.rows = new Float32Array(0);
     this.outline = /** @type {Point[]} */ ([]); // across the axis, and along it from O
     /** @type {(point: Point) => Point} */
@@ -26,8 +26,8 @@ export class Arms {
     this.push = drawn("g", {}, drawn("circle", { r: 8, class: "pushed" }), drawn("circle", { r: 2.5, class: "mass" }));
     this.mass = drawn("circle", { r: 4, class: "mass" });
     this.words = {
-      own: drawn("text", { class: "word halo own" }, said.own), upright: drawn("text", { class: "word halo upright" }, said.upright),
-      push: drawn("text", { class: "halo" }, said.push), axis: drawn("text", { class: "halo" }, said.axis), mass: drawn("text", { class: "halo" }, said.mass),
+      own: drawn("text", { class: "word halo own" }, wording.own), upright: drawn("text", { class: "word halo upright" }, wording.upright),
+      push: drawn("text", { class: "halo" }, wording.push), axis: drawn("text", { class: "halo" }, wording.axis), mass: drawn("text", { class: "halo" }, wording.mass),
     };
   }
 

@@ -40,7 +40,7 @@ export class Bar extends TimeLine {
     const line = (kind) => lines.map(([points, dash]) => drawn("polyline", { class: kind, points, "stroke-dasharray": dash || undefined }));
     this.played = drawn("rect", { x: 0, y: 0, width: 0, height });
     this.seen = drawn("rect", { x: 0, y: 0, width: 0, height });
-    this.cover = record.asked ? [] : this.covered();
+    this.cover = record.requested ? [] : this.covered();
     this.drawing.replaceChildren(
       drawn("clipPath", { id: "lesson-played" }, this.played), drawn("clipPath", { id: "lesson-seen" }, this.seen),
       ...this.axes(y, low === 0 && high === 180 ? [0, 90, 180] : ticks(low, high, 3)),
@@ -91,7 +91,7 @@ export class Bar extends TimeLine {
     for (const mark of this.marks) mark.style.display = Number(mark.dataset.t) <= seen + 1e-6 ? "" : "none";
     const tilt = scene.curves[0].at(t, TILT), digits = scene.step.speed ? 3 : 2;
     this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, digits], tilt: [tilt, 0], headline: "" }));
-    const stopped = !scene.record.asked && !time.playing && t > time.end - 0.03 * this.whole;
+    const stopped = !scene.record.requested && !time.playing && t > time.end - 0.03 * this.whole;
     this.note.textContent = stopped ? say(texts, texts.lesson.before, { t: [time.end, digits] }) : "";
   }
 }

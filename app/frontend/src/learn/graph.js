@@ -46,8 +46,8 @@ export class Graph {
     this.scene = scene;
     const { step, record, tops } = scene;
     // what gives the answer away is drawn only after the guess
-    this.kind = step.picture === "arms" && record.asked ? "graph" : step.picture;
-    if (["curves", "heads"].includes(step.picture)) this.kind = record.asked ? "graph" : "";
+    this.kind = step.picture === "arms" && record.requested ? "graph" : step.picture;
+    if (["curves", "heads"].includes(step.picture)) this.kind = record.requested ? "graph" : "";
     this.element.hidden = !this.kind || !tops.length;
     this.draw();
   }
@@ -56,29 +56,29 @@ export class Graph {
     const { clientWidth: width, clientHeight: height } = this.plot, { scene, texts } = this;
     if (!width || !scene || this.element.hidden) return;
     Object.assign(this, { width, height });
-    const { step } = scene, said = texts.drawn[step.picture];
+    const { step } = scene, wording = texts.drawn[step.picture];
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    this.title.innerHTML = this.kind === "graph" ? step.graph.y : said.title;
+    this.title.innerHTML = this.kind === "graph" ? step.graph.y : wording.title;
     this.drawing.setAttribute("aria-label", this.title.textContent);
     this.below.innerHTML = this.kind === "graph" ? step.graph.x : "";
     if (this.kind === "arms") this.drawing.replaceChildren(...this.arms.draw(scene.tops[0].run, width, height));
-    else this.drawing.replaceChildren(...this.lines(this.kind === "graph" ? this.graph() : this[this.kind](said)));
+    else this.drawing.replaceChildren(...this.lines(this.kind === "graph" ? this.graph() : this[this.kind](wording)));
     this.at(this.t);
   }
 
-  spin(said) {
+  spin(wording) {
     const { scene: { step, curves: [curves] } } = this;
     return { time: true, unit: "", lines: [
-      { word: said.above, kind: "turning", points: columnOf(curves, TURNING, step.end), dash: "7 4" },
-      { word: said.own, kind: "own", points: columnOf(curves, SPIN, step.end) }], marks: [], zero: true };
+      { word: wording.above, kind: "turning", points: columnOf(curves, TURNING, step.end), dash: "7 4" },
+      { word: wording.own, kind: "own", points: columnOf(curves, SPIN, step.end) }], marks: [], zero: true };
   }
 
-  energy(said) {
+  energy(wording) {
     const { scene: { step, curves: [curves] } } = this, whole = columnOf(curves, ENERGY, step.end), first = whole[0][1];
     return { time: true, unit: "mm", zero: true, marks: [], lines: [
-      { word: said.heat, kind: "first", points: whole.map(([t]) => [t, first]), dash: "4 3", below: true },
-      { word: said.spin, kind: "energy", points: whole, fill: "spins", below: true },
-      { word: said.height, kind: "energy", points: columnOf(curves, HEIGHT, step.end), fill: "lifts", above: true }] };
+      { word: wording.heat, kind: "first", points: whole.map(([t]) => [t, first]), dash: "4 3", below: true },
+      { word: wording.spin, kind: "energy", points: whole, fill: "spins", below: true },
+      { word: wording.height, kind: "energy", points: columnOf(curves, HEIGHT, step.end), fill: "lifts", above: true }] };
   }
 
   graph() {

@@ -25,7 +25,7 @@ class Lesson {
     this.model = model;
     this.texts = texts;
     this.count = 0;
-    /** @type {Record<string, { guess?: string | number, asked?: boolean, done?: boolean, seen: number }>} */
+    /** @type {Record<string, { guess?: string | number, requested?: boolean, done?: boolean, seen: number }>} */
     this.kept = {}; // by step, as long as the page is open
     /** @type {Map<Bytes, Curves>} */
     this.read = new Map();
@@ -143,7 +143,7 @@ class Lesson {
 
   reveal() {
     const { record } = this;
-    if (record.asked || !this.step.asks) return;
+    if (record.requested || !this.step.asks) return;
     record.guess ??= NaN;
     this.ask("reveal", "");
     this.watch();
@@ -167,7 +167,7 @@ class Lesson {
     const { record, step, time } = this;
     if (record.guess === undefined) return;
     if (record.done) time.again();
-    record.asked = true;
+    record.requested = true;
     time.end = step.end;
     this.shown = undefined;
     this.showStep();
@@ -186,14 +186,14 @@ class Lesson {
   }
 
   showNow() {
-    const { model } = this, asked = model.state.step;
+    const { model } = this, requested = model.state.step;
     if (this.role === "phone") this.phone.put(model.state);
-    if (!model.steps.length || !asked) return;
+    if (!model.steps.length || !requested) return;
     if (model.state.presents && model.state.presents !== this.presents) {
       this.presents = model.state.presents;
       setTimeout(() => this.present(true));
     }
-    if (asked !== this.told) this.name = this.told = asked; // Python's wish, from a link
+    if (requested !== this.told) this.name = this.told = requested; // Python's wish, from a link
     this.step = model.steps.find(({ name }) => name === this.name) ?? model.steps[0];
     if (this.role === "phone") this.follow();
     if (this.step.name !== this.entered) this.enter();
@@ -202,12 +202,12 @@ class Lesson {
 
   // A phone shows the answer when the big screen does.
   follow() {
-    const { room, step } = this, mine = room.asked === step.name ? room.mine : undefined;
+    const { room, step } = this, mine = room.question === step.name ? room.mine : undefined;
     this.element.dataset.role = "phone";
-    if (this.asked !== step.name) delete this.kept[step.name];
-    this.asked = step.name;
+    if (this.requested !== step.name) delete this.kept[step.name];
+    this.requested = step.name;
     if (mine !== undefined && mine !== null) this.record.guess = mine;
-    if (room.asked === step.name && room.shown && step.told.length && !this.record.asked) {
+    if (room.question === step.name && room.shown && step.told.length && !this.record.requested) {
       this.record.guess ??= NaN;
       this.watch();
     }
@@ -218,15 +218,15 @@ class Lesson {
     const { step, time, record } = this, still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.entered = step.name;
     time.play(false);
-    Object.assign(time, { end: record.asked ? step.end : step.before, events: step.events ?? [], chosen: step.speed ?? 0 });
-    this.beginning = !still && !record.asked;
+    Object.assign(time, { end: record.requested ? step.end : step.before, events: step.events ?? [], chosen: step.speed ?? 0 });
+    this.beginning = !still && !record.requested;
     this.frame.scrollIntoView?.({ block: "start" });
-    time.seek(record.asked || still ? time.end : 0);
+    time.seek(record.requested || still ? time.end : 0);
   }
 
   runs() {
     const { model, step } = this, all = { ...model.others, ...model.runs };
-    const found = (step.tops ?? []).map(([name, word]) => ({ name, word, run: all[name], hidden: step.later.includes(name) && !this.record.asked }));
+    const found = (step.tops ?? []).map(([name, word]) => ({ name, word, run: all[name], hidden: step.later.includes(name) && !this.record.requested }));
     return found.every(({ run }) => run) ? found : [];
   }
 
@@ -236,12 +236,12 @@ class Lesson {
     this.heading.innerHTML = step.question;
     this.showCrumbs();
     this.showQuestion();
-    const shown = [step.name, record.asked, this.presenting, ...tops.map(({ run }) => run)];
+    const shown = [step.name, record.requested, this.presenting, ...tops.map(({ run }) => run)];
     if (this.shown?.length === shown.length && shown.every((one, i) => one === this.shown[i])) return;
     this.shown = shown;
     if (tops.length) Object.assign(time, { unit: tops[0].run.seconds, tops: this.stage.tops });
     const curves = tops.map(({ run }) => this.curvesOf(run)), { t } = time; // a top that is drawn for the first time starts at 0
-    this.stage.show(tops, step, curves, Boolean(record.asked));
+    this.stage.show(tops, step, curves, Boolean(record.requested));
     this.scene = { step, tops, curves, record, inClass: this.presenting };
     this.bar.show(this.scene);
     this.graph.show(this.scene);
@@ -306,7 +306,7 @@ class Lesson {
     const { scene, time, record, step } = this;
     if (!scene?.tops.length) return;
     if (time.t > record.seen) record.seen = time.t;
-    if (record.asked && !record.done && !time.playing && !time.held && time.t >= time.end - NEARLY) {
+    if (record.requested && !record.done && !time.playing && !time.held && time.t >= time.end - NEARLY) {
       record.done = true;
       this.putPicture();
       this.showCrumbs();

@@ -4,16 +4,16 @@ import { part, say } from "../parts.js";
 
 /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} replay */
 export function phoneSide(texts, ask, replay) {
-  const words = texts.lesson.room, which = part("span", { class: "small" }), count = part("p", { role: "status" }), said = part("p", { role: "alert" });
+  const words = texts.lesson.room, which = part("span", { class: "small" }), count = part("p", { role: "status" }), wording = part("p", { role: "alert" });
   const again = part("button", { type: "button", class: "primary", onclick: () => ask("again", "") }, words.again), alone = part("a", { target: "_blank" }, words.alone);
   const head = part("header", { class: "phone-head" }, part("b", {}, words.title), which,
     part("button", { type: "button", class: "round", "aria-label": texts.again_hint, onclick: replay }, "↺"));
   return {
-    head, foot: part("div", { class: "phone-foot" }, count, said, again), follows: part("footer", { class: "follows" }, part("span", { class: "small" }, words.follows), alone),
+    head, foot: part("div", { class: "phone-foot" }, count, wording, again), follows: part("footer", { class: "follows" }, part("span", { class: "small" }, words.follows), alone),
     put(/** @type {any} */ { room, ...state }) {
       const open = Boolean(room?.code), mine = open && room.mine !== null && room.mine !== undefined;
       which.textContent = open ? say(texts, words.which, { code: room.code, i: room.place }) : "";
-      said.textContent = state.said;
+      wording.textContent = state.wording;
       again.hidden = !state.again;
       alone.href = state.alone;
       count.replaceChildren(...(open ? [part("b", {}, `${room.voted} ${say(texts, words.voted, { phones: room.phones })}.`), " ",

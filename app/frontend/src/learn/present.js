@@ -30,7 +30,7 @@ export class Presenter {
     const { room } = texts.lesson;
     this.options = part("ol", { class: "letters" });
     this.code = part("div", { class: "qr", role: "img" });
-    this.link = part("p", { class: "link-said" });
+    this.link = part("p", { class: "link-address" });
     this.warning = part("p", { class: "warning", role: "alert" });
     this.count = part("p", { class: "count", role: "status" });
     this.show = part("button", { type: "button", class: "primary", onclick: () => wish("reveal") }, room.reveal);
@@ -46,7 +46,7 @@ export class Presenter {
 
   /** @param {any} step @param {any} record @param {any} room @param {{ steps: any[], lost: boolean, back: boolean }} around */
   put(step, record, room, { steps, lost, back }) {
-    const { texts } = this, said = texts.lesson.room, open = Boolean(room.code), here = room.step === step.name;
+    const { texts } = this, wording = texts.lesson.room, open = Boolean(room.code), here = room.step === step.name;
     const votes = Object.fromEntries(here ? room.counts : []), most = Math.max(1, ...Object.values(votes)), done = record.done;
     const options = step.asks?.options ?? (done && here ? room.counts.map(([range]) => [range, range]) : []);
     this.options.replaceChildren(...options.map(([key, word], i) => part("li", { class: done && key === step.truth ? "true" : "" },
@@ -56,11 +56,11 @@ export class Presenter {
     this.code.hidden = !open || done;
     this.code.setAttribute("aria-label", open ? room.address : "");
     this.link.textContent = open && !done ? room.address.replace(/^https?:\/\//, "") : "";
-    this.warning.textContent = back ? said.back : lost ? said.lost : room.said || (room.local && !done ? said.local : "");
-    this.count.replaceChildren(...(open ? room.phones ? [part("b", {}, String(room.voted)), ` ${say(texts, said.voted, { phones: room.phones })}`] : [said.nobody] : []));
-    this.hidden.textContent = done || !step.asks ? "" : record.asked ? said.soon : said.hidden;
-    this.show.hidden = Boolean(record.asked) || !step.asks;
+    this.warning.textContent = back ? wording.back : lost ? wording.lost : room.wording || (room.local && !done ? wording.local : "");
+    this.count.replaceChildren(...(open ? room.phones ? [part("b", {}, String(room.voted)), ` ${say(texts, wording.voted, { phones: room.phones })}`] : [wording.nobody] : []));
+    this.hidden.textContent = done || !step.asks ? "" : record.requested ? wording.soon : wording.hidden;
+    this.show.hidden = Boolean(record.requested) || !step.asks;
     this.next.hidden = !done || steps.at(-1) === step;
-    this.dots.replaceChildren(...steps.map((each) => part("i", { class: each === step ? "here" : "" })), ` ${say(texts, said.place, { i: steps.indexOf(step) + 1, n: steps.length })}`);
+    this.dots.replaceChildren(...steps.map((each) => part("i", { class: each === step ? "here" : "" })), ` ${say(texts, wording.place, { i: steps.indexOf(step) + 1, n: steps.length })}`);
   }
 }

@@ -38,7 +38,7 @@ export class Question {
     this.step = step;
     this.record = record;
     this.hint.innerHTML = step.refused || step.hint || "";
-    const shown = `${step.name} ${Boolean(record.asked)} ${Boolean(record.done)} ${JSON.stringify(step.asks)}`;
+    const shown = `${step.name} ${Boolean(record.requested)} ${Boolean(record.done)} ${JSON.stringify(step.asks)}`;
     if (shown !== this.shown) {
       this.shown = shown;
       this.place.replaceChildren(...(step.refused || record.done ? [] : step.asks.options ? this.options() : this.slider()));
@@ -50,13 +50,13 @@ export class Question {
     this.next.hidden = last || !(record.done || step.refused);
     this.watch.textContent = record.done ? lesson.again : lesson.watch;
     this.watch.classList.toggle("quiet", Boolean(record.done));
-    this.guess.hidden = Boolean(record.done || record.asked || step.refused);
+    this.guess.hidden = Boolean(record.done || record.requested || step.refused);
     this.plays(playing);
   }
 
   // While the run plays there is nothing to press, until what decides the answer has been seen.
   plays(playing, isDecided = false) {
-    const { record, texts: { lesson } } = this, watching = record.asked && !record.done;
+    const { record, texts: { lesson } } = this, watching = record.requested && !record.done;
     this.watch.disabled = record.guess === undefined || (watching && playing);
     this.skip.hidden = !(watching && playing && isDecided);
     if (watching) this.watch.textContent = playing ? lesson.watching : lesson.watch;
@@ -67,7 +67,7 @@ export class Question {
     return [part("fieldset", {}, part("legend", {}, texts.lesson.answers), ...step.asks.options.map(([key, word]) => {
       const input = part("input", { type: "radio", name: "lesson-guess", value: key, onchange: () => hand.guess(key) });
       input.checked = record.guess === key;
-      input.disabled = Boolean(record.asked);
+      input.disabled = Boolean(record.requested);
       return part("label", { class: "option" }, input, part("span", {}, word));
     }))];
   }

@@ -7,27 +7,27 @@ import { style } from "./style.js";
 
 /** @param {Rendering<StepsModel>} rendering */
 export function renderSteps(rendering) {
-  const { model } = rendering, { texts } = model, said = texts.steps;
+  const { model } = rendering, { texts } = model, wording = texts.steps;
   const graph = new Graph(texts);
-  const range = part("input", { type: "range", min: 0, max: 0, step: 1, value: 0, "aria-label": said.step, oninput: () => show() });
+  const range = part("input", { type: "range", min: 0, max: 0, step: 1, value: 0, "aria-label": wording.step, oninput: () => show() });
   const chosen = part("output");
   const list = part("ul", { "aria-live": "polite" });
-  const label = part("label", { class: "step" }, part("span", {}, said.step), range, chosen);
+  const label = part("label", { class: "step" }, part("span", {}, wording.step), range, chosen);
   const showing = coalesce(show);
 
   function show() {
     const steps = model.curves.filter(({ step }) => step), laws = model.curves.filter(({ step }) => !step);
     label.hidden = !steps.length;
-    if (label.hidden) return list.replaceChildren(part("li", {}, said.working));
+    if (label.hidden) return list.replaceChildren(part("li", {}, wording.working));
     range.max = String(steps.length - 1);
     const present = steps[Number(range.value)];
     // legible on dark, too
     const curves = [...laws, present].map((curve) => ({ ...curve, colour: `color-mix(in srgb, ${curve.colour} 65%, var(--ink))` }));
-    chosen.textContent = range.ariaValueText = say(texts, said.milliseconds, { step: [present.step, 0] });
+    chosen.textContent = range.ariaValueText = say(texts, wording.milliseconds, { step: [present.step, 0] });
     list.replaceChildren(...curves.map(({ name, says, link, colour, dash }) => part("li", {}, swatch(colour, dash),
       part("span", {}, part("b", {}, `${name}: `), says, " ", link && part("a", { href: link }, texts.open)))));
-    graph.show({ step: { picture: "graph", end: 0, graph: { x: said.x, y: said.y, of: "x", curves: curves.map((curve) => ({ ...curve, word: "" })), points: model.points } },
-      record: { asked: false, seen: Infinity }, tops: [0] });
+    graph.show({ step: { picture: "graph", end: 0, graph: { x: wording.x, y: wording.y, of: "x", curves: curves.map((curve) => ({ ...curve, word: "" })), points: model.points } },
+      record: { requested: false, seen: Infinity }, tops: [0] });
   }
 
   const swatch = (colour, dash) => drawn("svg", { class: "swatch", viewBox: "0 0 26 8", "aria-hidden": "true" },

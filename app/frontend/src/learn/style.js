@@ -30,7 +30,7 @@ const places = `
 .more { grid-area: more; display: flex; flex-wrap: wrap; gap: 0 20px; } .more .link { font-weight: 400; color: var(--ink-2); }
 `;
 
-const asked = `
+const question = `
 fieldset { border: 0; margin: 0; padding: 0; display: grid; gap: 8px; min-width: 0; } legend { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
 .option { display: flex; align-items: center; gap: 12px; min-height: 48px; padding: 6px 14px; border-radius: 6px; box-shadow: inset 0 0 0 1px var(--line-2); cursor: pointer; }
 .option:hover { background: color-mix(in srgb, var(--ink) 4%, transparent); }
@@ -67,7 +67,7 @@ const present = `
 .votes { display: flex; align-items: center; gap: 8px; } .votes i { height: 12px; background: var(--ink-2); max-width: 80%; border-radius: 3px; } .letters .true i { background: var(--accent); } .letters em { font-style: normal; font-weight: 600; }
 .present > .picture { grid-area: stage; max-height: none; } .lesson.present[data-picture=arms] .stage { visibility: hidden; }
 .board .picture { display: none; } [data-answered] .board .picture { display: flex; flex: none; height: 300px; max-height: 34vh; }
-.qr { flex: 1 1 0; min-height: min(220px, 23vh); position: relative; } .qr svg { position: absolute; inset: 0; width: 100%; height: 100%; } .link-said { text-align: center; overflow-wrap: anywhere; font-weight: 600; } .link-said:empty, .warning:empty { display: none; }
+.qr { flex: 1 1 0; min-height: min(220px, 23vh); position: relative; } .qr svg { position: absolute; inset: 0; width: 100%; height: 100%; } .link-address { text-align: center; overflow-wrap: anywhere; font-weight: 600; } .link-address:empty, .warning:empty { display: none; }
 .warning { border-left: 4px solid var(--ink); padding-left: 12px; } .counted { margin-top: auto; position: sticky; bottom: 0; background: var(--ground); display: flex; align-items: center; justify-content: space-between; gap: 16px; } .count b { font-size: 2em; } .present .primary { min-height: 64px; padding: 0 36px; }
 .present .bar .plot { height: 150px; } .keys { display: flex; gap: 4px; flex-wrap: wrap; } .keys button { min-height: 36px; padding: 0 8px; } kbd { font: inherit; border: 1px solid var(--line-2); border-radius: 4px; padding: 0 6px; margin-right: 6px; }
 .dots i { display: inline-block; width: 12px; height: 12px; border-radius: 6px; margin-right: 8px; box-shadow: inset 0 0 0 1.5px var(--line-2); } .dots .here { width: 32px; background: var(--accent); box-shadow: none; }
@@ -104,4 +104,4 @@ const small = `
 }
 `;
 
-export const style = [shared, timed, places, asked, drawings, present, steps, small].join("");
+export const style = [shared, timed, places, question, drawings, present, steps, small].join("");

@@ -23,8 +23,8 @@ export class Ways {
   /** @param {Record<string, any>} texts */
   constructor(texts) {
     this.texts = texts;
-    const said = texts.drawn.spin;
-    this.circles = [[said.from_above, "turning", TURNING], [said.from_stem, "own", SPIN]].map(([word, kind, column]) => {
+    const wording = texts.drawn.spin;
+    this.circles = [[wording.from_above, "turning", TURNING], [wording.from_stem, "own", SPIN]].map(([word, kind, column]) => {
       const line = drawn("path", { class: `line ${kind}` }), head = drawn("path", { class: `tip ${kind}` }), number = drawn("text", { class: "word", y: 5, "text-anchor": "middle" });
       const drawing = drawn("svg", { viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, role: "img", "aria-label": word }, drawn("circle", { class: "rim", r: R }), line, head, number);
       return { column, line, head, number, element: part("figure", {}, drawing, part("figcaption", {}, word)) };

@@ -102,7 +102,7 @@ export class Place {
     const { model, player } = this, first = !player.frames.count;
     this.echo = true; // a new motion does not change the other tops' clocks
     player.setFrames(model.frames, model.azimuth);
-    this.said = undefined; // the same moment of another motion is news
+    this.reported = undefined; // the same moment of another motion is news
     if (start) player.land(0);
     this.echo = false;
     if (!first || !player.frames.count) return false;
@@ -124,9 +124,9 @@ export class Place {
   /** @param {string} verdict */
   say(verdict) {
     const { t, playing, index } = this.player;
-    if (this.said?.t === t && this.said.playing === playing) return;
-    this.said = { t, index, playing, verdict };
-    if (this.leads) window.dispatchEvent(new CustomEvent(`tippe:clock${this.suffix}`, { detail: this.said }));
+    if (this.reported?.t === t && this.reported.playing === playing) return;
+    this.reported = { t, index, playing, verdict };
+    if (this.leads) window.dispatchEvent(new CustomEvent(`tippe:clock${this.suffix}`, { detail: this.reported }));
   }
 
   // Does to all tops of the clock what a person did to one of them.

@@ -99,7 +99,7 @@ const SPARE = 4; // px: words are narrower than reckoned
  */
 export function placed(lines, left, right, wide) {
   const [whole, short] = [1, 2].map((i) => lines.map((line) => /** @type {[number, string]} */ ([line[0], line[i]])));
-  const ways = [1, 2].flatMap((rows) => [whole, lines, short].map((said) => beside(said, left, right, wide, rows)));
+  const ways = [1, 2].flatMap((rows) => [whole, lines, short].map((wording) => beside(wording, left, right, wide, rows)));
   ways.push(beside(short, left, right, wide, 2, true));
   return ways.reduce((best, found) => (found.length > best.length ? found : best));
 }
@@ -114,9 +114,9 @@ export function placed(lines, left, right, wide) {
  */
 function beside(lines, left, right, wide, rows, isFirst) {
   const taken = Array.from({ length: rows }, () => (isFirst ? [] : lines.map(([x]) => [x - 1, x + 1])));
-  const said = Array.from({ length: rows }, () => /** @type {number[][]} */ ([]));
+  const occupied = Array.from({ length: rows }, () => /** @type {number[][]} */ ([]));
   const isFree = (row, from, to, x) => from >= left && to <= right && taken[row].every(([a, b]) => to < a || from > b)
-    && said.slice(row).flat().every(([a, b]) => x < a || x > b - SPARE); // a line goes down from the row of its word
+    && occupied.slice(row).flat().every(([a, b]) => x < a || x > b - SPARE); // a line goes down from the row of its word
   return lines.flatMap(([x, ...words]) => {
     const ways = taken.flatMap((_, row) => words.flatMap((word) => ["start", "end"].map((side) => {
       const width = wide(word), from = side === "start" ? x + 3 : x - 4 - width;
@@ -126,7 +126,7 @@ function beside(lines, left, right, wide, rows, isFirst) {
     if (!way) return [];
     const { row, from, to, word, side } = way;
     taken[row].push([from, to]);
-    said[row].push([from, to]);
+    occupied[row].push([from, to]);
     for (const below of taken.slice(row)) below.push([x - 1, x + 1]);
     return [{ x, word, side, row }];
   });

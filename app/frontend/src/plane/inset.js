@@ -41,9 +41,9 @@ export class Inset {
     const around = Math.max(AROUND * (state.outer - state.inner), 1e-3), [low, high] = state.K_J_range, by = LEVELS * (high - low);
     /** @type {[number, number][]} */
     const [along, up] = [[state.inner - around, state.outer + around], [state.K_J - by, state.K_J + by]];
-    const plot = plotOf(inner, along, up), said = (tilt) => local(degrees(tilt).toFixed(1));
+    const plot = plotOf(inner, along, up), wording = (tilt) => local(degrees(tilt).toFixed(1));
     this.chosen.show(plot, state);
-    const text = fill(texts.near[said(state.inner) === said(state.outer) ? "stays" : "says"], { inner: said(state.inner), outer: said(state.outer) });
+    const text = fill(texts.near[wording(state.inner) === wording(state.outer) ? "stays" : "says"], { inner: wording(state.inner), outer: wording(state.outer) });
     return [
       drawn("rect", { class: "card", x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top, rx: 6 }),
       drawn("clipPath", { id: "near" }, drawn("rect", { x: inner.left, y: inner.top, width: inner.right - inner.left, height: inner.bottom - inner.top })),

@@ -31,7 +31,7 @@ export class Flick {
     this.from = /** @type {number[] | null} */ (null); // where a hand is on the top, px
     this.mark = new Vector3(); // there, in the body
     this.waits = false; // whether the motion has still to go on from a push
-    this.said = "";
+    this.wording = "";
     const capture = { capture: true }; // before the camera hears of it
     stage.holder.addEventListener("pointerdown", (event) => event.target === canvas && this.press(event), capture);
     // A finger that is on the top pushes it up and down too; elsewhere it scrolls the page.
@@ -80,7 +80,7 @@ export class Flick {
     const R = (2 * camera.position.distanceTo(point) * Math.tan((camera.fov * Math.PI) / 360)) / height; // of one px there
     vector.set(0, 0, 0);
     if (Math.hypot(x, y) >= LEAST) vector.addScaledVector(column(0), x * R).addScaledVector(column(1), -y * R);
-    this.show(this.spins ? this.hand.saidTurns(this.turns) : this.hand.saidSize(PUSH * vector.length()));
+    this.show(this.spins ? this.hand.turnsText(this.turns) : this.hand.sizeText(PUSH * vector.length()));
   }
 
   get turns() {
@@ -88,10 +88,10 @@ export class Flick {
     return turnsOf(vector, axis, point.clone().sub(this.scene.body.position));
   }
 
-  /** @param {string} said */
-  show(said) {
-    this.said = said;
-    this.impulse.show(said);
+  /** @param {string} wording */
+  show(wording) {
+    this.wording = wording;
+    this.impulse.show(wording);
     this.stage.invalidate();
   }
 
@@ -138,7 +138,7 @@ export class Flick {
     this.hand.hold(true);
     this.push(vector);
     vector.multiplyScalar(1 / PUSH);
-    this.show(this.hand.saidSize(KEY_PUSH));
+    this.show(this.hand.sizeText(KEY_PUSH));
   }
 
   // Whether the arrow is that of the hand: until the motion goes on.
@@ -147,7 +147,7 @@ export class Flick {
     if (!this.from) return this.waits;
     this.scene.body.updateMatrixWorld();
     this.scene.body.localToWorld(this.impulse.point.copy(this.mark));
-    this.impulse.show(this.said);
+    this.impulse.show(this.wording);
     return true;
   }
 }

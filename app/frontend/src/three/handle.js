@@ -45,13 +45,13 @@ export class Handle {
     this.lean = [1, 0];
     this.wanted = new Vector3();
     this.t = this.theta = this.reach = 0;
-    this.held = this.asked = false;
+    this.held = this.requested = false;
     this.tilt = ""; // as it was written last
     this.label = labels.add("", "handle");
     const { element } = this.label;
     element.removeAttribute("aria-hidden");
     for (const by of ["animationend", "pointerdown", "keydown"]) element.addEventListener(by, () => element.classList.add("found"));
-    dress(element, { tabindex: 0, role: "slider", "aria-label": model.texts.handle, "aria-valuemin": 0, "aria-valuemax": this.said(Math.PI), title: model.texts.handle_hint });
+    dress(element, { tabindex: 0, role: "slider", "aria-label": model.texts.handle, "aria-valuemin": 0, "aria-valuemax": this.wording(Math.PI), title: model.texts.handle_hint });
     element.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       element.focus({ preventScroll: true });
@@ -68,13 +68,13 @@ export class Handle {
       event.stopPropagation(); // here the arrow keys do not move the clock
       this.take();
       this.ask(Math.min(Math.max(this.theta + step, 0), Math.PI));
-      this.asked = true;
+      this.requested = true;
     });
   }
 
   // The tilt for a screen reader.
   /** @param {number} theta */
-  said(theta) {
+  wording(theta) {
     return this.model.degrees ? ((180 / Math.PI) * theta).toFixed(0) : local(theta.toFixed(3));
   }
 
@@ -125,8 +125,8 @@ export class Handle {
 
   // Whether the new motion is the one that was requested here; then it stays at its beginning.
   begins() {
-    const mine = this.held || this.asked;
-    this.asked = false;
+    const mine = this.held || this.requested;
+    this.requested = false;
     return mine;
   }
 
@@ -141,10 +141,10 @@ export class Handle {
     this.theta = theta;
     this.reach = (body.top ?? 1) + BEYOND;
     this.label.at.copy(this.axis).multiplyScalar(this.reach).add(this.from);
-    const said = this.said(this.held ? (this.model.tilted[0] ?? theta) : theta); // of the hand, which its run follows later
-    if (said === this.tilt) return; // nothing to write in most frames
-    this.tilt = said;
-    element.setAttribute("aria-valuenow", said);
-    element.dataset.said = this.model.degrees ? `${said}°` : said;
+    const wording = this.wording(this.held ? (this.model.tilted[0] ?? theta) : theta); // of the hand, which its run follows later
+    if (wording === this.tilt) return; // nothing to write in most frames
+    this.tilt = wording;
+    element.setAttribute("aria-valuenow", wording);
+    element.dataset.wording = this.model.degrees ? `${wording}°` : wording;
   }
 }

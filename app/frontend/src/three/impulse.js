@@ -39,12 +39,12 @@ export class Impulse {
 
   get axis() { return up.clone().applyQuaternion(this.scene.body.quaternion); }
 
-  /** @param {string} said */
-  show(said) {
+  /** @param {string} wording */
+  show(wording) {
     const { arrow, label, point, vector: { x, y, z } } = this;
     arrow.point(point, x, y, z, label.at);
     arrow.visible = label.visible = Boolean(arrow.drawable);
-    if (label.element.textContent !== said) label.element.textContent = said;
+    if (label.element.textContent !== wording) label.element.textContent = wording;
   }
 
   hide() {
@@ -58,6 +58,6 @@ export class Impulse {
     if (!push || t - push.t > SEEN * speed || !body.visible) return this.hide();
     this.point.copy(inSpace(push.point, axis, axis)).add(body.position);
     this.vector.copy(inSpace(push.impulse, axis, up)).divideScalar(PUSH);
-    this.show(push.said);
+    this.show(push.wording);
   }
 }

@@ -163,7 +163,7 @@ export class Stage {
   }
 
   invalidate() {
-    this.asked = true;
+    this.requested = true;
     this.again();
   }
 
@@ -177,7 +177,7 @@ export class Stage {
     this.timer ||= setTimeout(() => {
       this.timer = 0;
       if (this.isReady(performance.now())) this.again();
-      else if (this.fence || this.asked || this.moving || (this.simple && this.inView)) this.soon();
+      else if (this.fence || this.requested || this.moving || (this.simple && this.inView)) this.soon();
     }, POLL_MS);
   }
 
@@ -202,10 +202,10 @@ export class Stage {
   isReady(now) {
     if (this.width && !this.isPrepared()) return false;
     if (this.fence) return this.isDrawn();
-    if (this.isHeld(now)) return this.asked; // draws once more, and fine, when the control is released
+    if (this.isHeld(now)) return this.requested; // draws once more, and fine, when the control is released
     if (inWork) return false;
     const early = this.moving && this.cost > SLOW_MS && now - this.drawnAt < pace.rest * this.cost;
-    return !early && (this.asked || this.moving || (this.simple && this.inView));
+    return !early && (this.requested || this.moving || (this.simple && this.inView));
   }
 
   /** @param {number} now in ms */
@@ -222,7 +222,7 @@ export class Stage {
     }
     if (!this.holder.isConnected) return;
     const held = this.isHeld(now);
-    this.asked = false;
+    this.requested = false;
     this.moving = this.tick(now, held);
     if (this.inView) {
       this.fineness = held ? HAND_COARSE : this.moving ? this.coarse : 1;

@@ -158,7 +158,7 @@ class Top {
   report = () => {
     const { player: { t, playing, frames }, place, scene: { body, pointedAt }, stage: { pictures }, eye, label, verdict, received, shown } = this;
     return {
-      t, playing, pictures, label, index: place.said?.index, count: frames.count, position: body.position.toArray(), quaternion: body.quaternion.toArray(),
+      t, playing, pictures, label, index: place.reported?.index, count: frames.count, position: body.position.toArray(), quaternion: body.quaternion.toArray(),
       eye: eye.direction, verdict: verdict.textContent, motions: { received, shown }, highlight: pointedAt.visible ? this.highlight?.label : "",
     };
   };

@@ -49,11 +49,11 @@ class Films {
     this.progress = part("progress", { max: 1, "aria-label": texts.progress });
     this.wait = part("span", { class: "wait", hidden: true }, this.progress, part("button", { type: "button", class: "outline", onclick: () => (this.stopped = true) }, texts.stop));
     this.files = part("span", { class: "wait" }, ...this.buttons);
-    this.said = part("p", { class: "small", role: "status" });
+    this.wording = part("p", { class: "small", role: "status" });
     this.stretch = part("div");
     this.inner = /** @type {Rendering<FilmModel>["view"]} */ ({});
     this.life = frame(rendering, STYLE, part("div", { class: "all" }, part("span", { class: "says" }, part("b", {}, texts.title), part("span", { class: "small" }, texts.says)),
-      this.files, this.wait, this.stretch, this.said));
+      this.files, this.wait, this.stretch, this.wording));
     this.offer();
   }
 
@@ -67,7 +67,7 @@ class Films {
   look() {
     const lab = labInSight();
     this.stretch.hidden = this.files.hidden = !lab;
-    if (!lab) return void (this.said.textContent = this.texts.elsewhere);
+    if (!lab) return void (this.wording.textContent = this.texts.elsewhere);
     const { scene: { end } } = lab, value = this.ends?.value;
     if (this.end !== end) {
       const kept = value && value[1] <= end && value[1] < this.end;
@@ -96,7 +96,7 @@ class Films {
   tell(lab) {
     const { texts } = this, times = this.times(lab, HD), until = times.at(-1), whole = until === this.ends.value[1];
     const length = say(texts, whole ? texts.length : texts.cut, { length: [times.length / HD.rate, 1], most: MOST_S, until: [until, 2] });
-    this.said.textContent = [length, this.codecs && !this.codecs.webm && !this.codecs.mp4 ? texts.no_encoder : ""].join(" ");
+    this.wording.textContent = [length, this.codecs && !this.codecs.webm && !this.codecs.mp4 ? texts.no_encoder : ""].join(" ");
   }
 
   async make(kind) {
@@ -105,22 +105,22 @@ class Films {
     this.making = true;
     this.stopped = false;
     bar.value = 0;
-    [this.files.hidden, this.wait.hidden, this.said.textContent] = [true, false, ""];
+    [this.files.hidden, this.wait.hidden, this.wording.textContent] = [true, false, ""];
     const film = lab.film(), size = SIZES[kind], times = this.times(lab, size);
-    let said = texts.made;
+    let wording = texts.made;
     try {
       const [{ writerOf }] = await Promise.all([import(new URL(model.encoders, document.baseURI).href), film.begin()]);
       const writer = await writerOf(kind, this.codecs?.[kind], film.canvas, size);
       const done = await this.write(film, writer, times, size);
       if (done) save(done, `tippe-top-${lab.scene.table}.${kind}`);
-      else said = texts.stopped;
+      else wording = texts.stopped;
     } catch (error) {
       console.warn(error);
-      said = say(texts, texts.failed, { why: String(error instanceof Error ? error.message : error) });
+      wording = say(texts, texts.failed, { why: String(error instanceof Error ? error.message : error) });
     }
     film.leave();
     this.making = false;
-    [this.files.hidden, this.wait.hidden, this.said.textContent] = [false, true, said];
+    [this.files.hidden, this.wait.hidden, this.wording.textContent] = [false, true, wording];
   }
 
   async write(film, writer, times, { rate }) {
@@ -142,7 +142,7 @@ class Films {
 /** @param {Rendering<FilmModel>} rendering */
 export function renderFilm(rendering) {
   const films = new Films(rendering), look = () => !films.making && films.look();
-  whenSeen(films.said.parentElement, look, films.life);
+  whenSeen(films.wording.parentElement, look, films.life);
   atEnd(films.life, () => {
     films.stopped = true;
     films.inner.tippe?.dispose();

@@ -16,8 +16,8 @@ const listOf = (texts) => `<dialog class="list" aria-labelledby="title"><h2 id="
   <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>`;
 
 const statementOf = ({ statement: [[title, about], ...parts], close }) => `<dialog class="statement" aria-labelledby="statement"><h2 id="statement" tabindex="-1">${title}</h2>
-  ${paragraphs(about)}${parts.map(([heading, said]) => `<h3>${heading}</h3>${paragraphs(said)}`).join("")}<button class="close">${close}</button></dialog>`;
-const paragraphs = (said) => said.map((words) => `<p>${words}</p>`).join("");
+  ${paragraphs(about)}${parts.map(([heading, wording]) => `<h3>${heading}</h3>${paragraphs(wording)}`).join("")}<button class="close">${close}</button></dialog>`;
+const paragraphs = (wording) => wording.map((words) => `<p>${words}</p>`).join("");
 
 // For screen readers: how the top rolls, while its constants are shown. The stage of the Lab says what it does there.
 /** @param {GuideModel} model @param {AbortSignal} signal */
@@ -26,8 +26,8 @@ function speak(model, signal) {
   const live = part("div", { role: "status", "aria-label": model.texts.now,
     style: "position: absolute; top: 0; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap" });
   (find("[role=main], main") ?? document.body).append(live);
-  follow(model, ["said", "tour"], debounce(() => {
-    const heard = model.tour ? model.said : "";
+  follow(model, ["wording", "tour"], debounce(() => {
+    const heard = model.tour ? model.wording : "";
     if (live.textContent !== heard) live.textContent = heard;
   }, SAY_MS, signal));
   atEnd(signal, () => live.remove());

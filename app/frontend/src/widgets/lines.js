@@ -18,7 +18,7 @@ export function figures(value, digits) {
 }
 
 /** @param {Float64Array} side @param {number} digits */
-export const said = (side, digits) =>
+export const wording = (side, digits) =>
   side.length === 1 ? figures(side[0], digits) : `(${Array.from(side, (x) => figures(x, 6)).join("; ")})`;
 
 // The row closest to a time within its nutation; t is the first number of each row.
@@ -61,7 +61,7 @@ class Lines {
 
   valueOf(name, plane) {
     const { at, size } = this.model.symbols[name];
-    return said(this.row(plane).subarray(at, at + size), 6);
+    return wording(this.row(plane).subarray(at, at + size), 6);
   }
 
   point(name, plane, anchor) {
@@ -130,7 +130,7 @@ class Lines {
       const values = this.row(line.plane), { at, size, scale } = line;
       const left = values.subarray(at, at + size), right = values.subarray(at + size, at + 2 * size);
       const apart = Math.max(...left.map((x, i) => Math.abs(x - right[i]))) / scale;
-      const all = [[words.left, said(left, 10)], [words.right, said(right, 10)], [words.differ, figures(apart, 2)]];
+      const all = [[words.left, wording(left, 10)], [words.right, wording(right, 10)], [words.differ, figures(apart, 2)]];
       sides.replaceChildren(...all.flatMap(([word, text]) => [`${word} `, part("b", {}, text), "  "]));
       sides.dataset.apart = apart;
       if (list.hidden) continue;

@@ -178,8 +178,8 @@ class Bench {
     const point = this.pointOf(event), name = this.held || this.near(point, REACH.mouse);
     if (this.held) this.ask(this.held, this.view.from(point).map((mm, i) => mm + this.off[i]));
     if (!name) return hideReadout(this);
-    const [, , said] = this.state.handles[name] ?? [0, 0, []];
-    showReadout(this, said.filter(Boolean).join(": "), [event.clientX, event.clientY], []);
+    const [, , wording] = this.state.handles[name] ?? [0, 0, []];
+    showReadout(this, wording.filter(Boolean).join(": "), [event.clientX, event.clientY], []);
   }
 
   release() {

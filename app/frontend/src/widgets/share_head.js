@@ -46,11 +46,11 @@ export function renderShareHead({ model, el }) {
   el.replaceChildren(part("style", {}, STYLE), part("section", { class: "all", "aria-label": texts.title },
     part("div", { class: "line" }, part("h2", {}, texts.title), part("button", { type: "button", class: "close", "aria-label": texts.close, title: texts.close, onclick: close }, "✕")),
     part("div", { class: "line" }, link, copyButton(link, "copy", [texts.copy, texts.copied])), code, part("div", { class: "line" }, first, fill), rest), room);
-  follow(model, ["link", "picture", "said"], () => {
+  follow(model, ["link", "picture", "wording"], () => {
     link.value = model.link;
     code.innerHTML = model.picture;
     code.hidden = fill.hidden = !model.picture;
-    [first.textContent, rest.textContent] = [model.said[0] ?? "", model.said.slice(1).join(" ")];
+    [first.textContent, rest.textContent] = [model.wording[0] ?? "", model.wording.slice(1).join(" ")];
   });
   model.on("opened", opened);
   opened();

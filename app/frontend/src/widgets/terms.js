@@ -19,7 +19,7 @@ export function finder(terms) {
 }
 
 /** The explanation of a term, as HTML. @param {Terms} terms @param {string} name */
-export const saidOf = (terms, name) => `${sketchOf(name) ?? ""}<div><b>${terms[name].forms.split("|")[0]}</b>: ${terms[name].is}.</div>`;
+export const readoutOf = (terms, name) => `${sketchOf(name) ?? ""}<div><b>${terms[name].forms.split("|")[0]}</b>: ${terms[name].is}.</div>`;
 
 // The term at a place in an element's own text, and the boxes around it.
 function termAt(element, x, y, find) {
@@ -43,7 +43,7 @@ export function watchTerms(terms, signal) {
   const look = (element, x, y) => {
     if (!(element instanceof Element) || element.closest(QUIET)) return;
     const found = termAt(element, x, y, find);
-    if (found) showReadout(owner, saidOf(terms, found.name), [x, y], found.boxes);
+    if (found) showReadout(owner, readoutOf(terms, found.name), [x, y], found.boxes);
   };
   const away = () => {
     clearTimeout(resting);

@@ -60,9 +60,9 @@ def test_a_dial_passes_over_what_it_never_sends(explorer, scheduler, one_line):
     for i, value in enumerate(VALUES):
         for typed, wish in ((False, 6.0), (True, "6")):
             for sent in lists(value, 1, "K_J", wish, typed):
-                control.view.asked = sent
+                control.view.request = sent
                 assert math.isfinite(explorer.scene.constants.K_J)
-        control.view.asked = [99 + i, "K_J", 6.25 + i, False]
+        control.view.request = [99 + i, "K_J", 6.25 + i, False]
         assert scheduler._wanted.get("K_J", explorer.K_J) == 6.25 + i
 
 
@@ -87,9 +87,9 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(one_line):
         for i, value in enumerate(NUMBERS):
             before = workshop.builder.draft.shape.R
             for sent in lists(value, 1, "R", 20.0, False):
-                knob.view.asked = sent
+                knob.view.request = sent
                 assert workshop.builder.draft.shape.R in (before, 0.020)
-            knob.view.asked = [99 + i, "R", 18.0 + i, False]
+            knob.view.request = [99 + i, "R", 18.0 + i, False]
             assert workshop.builder.draft.shape.R == pytest.approx(0.018 + 0.001 * i)
 
 

@@ -13,8 +13,8 @@ button[aria-current] { box-shadow: inset 3px 0 0 currentColor; }
 @media (max-width: 700px) { button { grid-template-columns: 4.2em 1fr; } span:last-child { grid-column: 2; } }
 `;
 
-/** @param {Rendering<MomentsModel>} rendering */
-export function renderMoments(rendering) {
+/** @param {Rendering<EventListModel>} rendering */
+export function renderEventList(rendering) {
   const { model } = rendering, list = part("ol"), life = frame(rendering, style, list);
   const mark = (t) => {
     const now = latest(model.rows, t);

@@ -5,7 +5,7 @@ import param
 from app.bundle import Bundled
 
 
-class Moments(Bundled):
+class EventList(Bundled):
     """The list, which is drawn in the browser."""
 
     clock = param.String(constant=True, doc="The clock that is set to the moment that is clicked.")

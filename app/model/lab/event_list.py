@@ -20,7 +20,7 @@ GRIPS, HOPS = {"sticks", "slips"}, {"lifts off", "lands"}
 ON = {"both": "both", "stem": "stem", "none": "air"}
 
 
-class Moment(NamedTuple):
+class Event(NamedTuple):
     """t in units of the run's time and in s, what happened, in words, and the state right after it, as HTML."""
 
     t: float
@@ -29,17 +29,17 @@ class Moment(NamedTuple):
     more: str
 
 
-def moments(motion: TableMotion | None) -> tuple[Moment, ...]:
-    """The Moments of a motion, in the page's language; at most MOST of them, and the last one."""
+def events_of(motion: TableMotion | None) -> tuple[Event, ...]:
+    """The Events of a motion, in the page's language; at most MOST of them, and the last one."""
     if motion is None:
         return ()
     unit, words, part = motion.start.scales.time, listed("lab.events"), say(f"planes.parts.{motion.start.part}")
     found = [(t, words[code][0].format(part=part)) for t, code in happened(motion) if code not in OF_CONTACTS]
     found += _turns(motion, unit) + _touches(motion, unit, part)
-    told = [(0.0, say("planes.moments.begins")), *sorted(each for each in found if each[0] > 0.0)]
+    told = [(0.0, say("planes.event_list.begins")), *sorted(each for each in found if each[0] > 0.0)]
     if len(told) > MOST:
         told = [*told[: MOST - 1], told[-1]]
-    return tuple(Moment(t / unit, t, word, _after(motion, t / unit, part)) for t, word in told)
+    return tuple(Event(t / unit, t, word, _after(motion, t / unit, part)) for t, word in told)
 
 
 def _turns(motion: TableMotion, unit: float) -> list[tuple[float, str]]:
@@ -50,7 +50,7 @@ def _turns(motion: TableMotion, unit: float) -> list[tuple[float, str]]:
         return []
     i = int(at[0])
     zero = t[i] + (t[i + 1] - t[i]) * spin[i] / (spin[i] - spin[i + 1])
-    return [(unit * float(zero), say("planes.moments.turns"))]
+    return [(unit * float(zero), say("planes.event_list.turns"))]
 
 
 def _touches(motion: TableMotion, unit: float, part: str) -> list[tuple[float, str]]:
@@ -80,10 +80,10 @@ def _continues(series: list[tuple[float, str]], t: float, event: str) -> bool:
 def _word(series: list[tuple[float, str]], part: str) -> str:
     """One event, or a series of them, in words."""
     if len(series) == 1:
-        return say(f"planes.moments.events.{series[0][1]}", part=part)
+        return say(f"planes.event_list.words.{series[0][1]}", part=part)
     events = {event for _, event in series}
     kind = "grips" if events <= GRIPS else "hops" if events <= GRIPS | HOPS else "rattles"
-    return say(f"planes.moments.series.{kind}", part=part, end=series[-1][0])
+    return say(f"planes.event_list.series.{kind}", part=part, end=series[-1][0])
 
 
 def _after(motion: TableMotion, t: float, part: str) -> str:
@@ -94,5 +94,5 @@ def _after(motion: TableMotion, t: float, part: str) -> str:
     does = say(f"regimes.stretch.{NAMES[int(motion.frames[-1][i])]}")
     if on != "none":
         does += " " + say(f"planes.spells.on.{ON.get(on, 'ball')}", part=part)
-    return say("planes.moments.after", does=does, tilt=float(np.degrees(moved.theta[i])),
+    return say("planes.event_list.after", does=does, tilt=float(np.degrees(moved.theta[i])),
                K_J=float(moved.jellett[i] / moved.top.I1), K_R=float(moved.routh[i]))  # fmt: skip

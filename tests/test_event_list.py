@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from doubles import by_hand
 
+from app.model.lab.event_list import MOST, events_of
 from app.model.lab.lab import scene_of
-from app.model.lab.moments import MOST, moments
 from app.model.run import on
 from app.model.setup import start_of
 from app.text import speaking
@@ -22,7 +22,7 @@ def toy():
 
 
 def told(scene, table):
-    return moments(scene.motions[table])
+    return events_of(scene.motions[table])
 
 
 def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
@@ -49,23 +49,23 @@ def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
 
 def test_what_only_rolls_or_glides_has_little_to_tell(toy):
     assert [moment.word for plane in ("rough", "ice") for moment in told(toy, plane)] == ["let go", "let go"]
-    assert moments(None) == ()
+    assert events_of(None) == ()
 
 
 def test_one_event_has_one_word():
     """That it sticks for good is that the table grips it; that the ball leaves is not yet a stand on the stem."""
     caught = replace(start_of(TOY, 28.65, 5.73, 0.3), law="coulomb")
-    assert [moment.word for moment in moments(on(caught, "ordinary"))] == ["let go", "is gripped and rolls"]
+    assert [moment.word for moment in events_of(on(caught, "ordinary"))] == ["let go", "is gripped and rolls"]
     for law in ("contact", "smoothed"):
-        words = [moment.word for moment in moments(on(replace(caught, law=law), "ordinary"))]
+        words = [moment.word for moment in events_of(on(replace(caught, law=law), "ordinary"))]
         assert sum("stands on its" in word for word in words) == 1 and any(
             "stem carries it" in word or "rattles on its ball and stem" in word for word in words
         )
     slow = replace(start_of("Wooden cone", 5.0, 20.0, 0.3), law="coulomb")  # it sticks and slips before
-    assert [moment.word for moment in moments(on(slow, "ordinary"))].count("sticks") == 1
+    assert [moment.word for moment in events_of(on(slow, "ordinary"))].count("sticks") == 1
 
 
 def test_a_stem_that_chatters_is_told_in_few_lines():
     """The paper's top rattles on ball and stem."""
-    found = moments(on(by_hand(), "ordinary"))
+    found = events_of(on(by_hand(), "ordinary"))
     assert len(found) <= MOST and any("rattles on its ball and stem until" in moment.word for moment in found)
