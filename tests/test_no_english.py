@@ -20,7 +20,7 @@ TEMPLATE = re.compile(r"(?:\\.|\$(?!\{)|[^`$\\])*", re.DOTALL)
 # Strings that look like English but that no visitor reads: {end of a path: {beginning of the string: why}}.
 NOT_SAID = {
     "answers.py": {"GET, HEAD": "a header"},
-    "validate.py": {"": "said to the log"},
+    **{name: {"": "said to the log"} for name in ("validate.py", "form.py")},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
     **{name: {"": "files of data and programs, which are the same in every language"}
        for name in ("export.py", "measured/examples.py", "measured/report.py", "glb.py", "programs.py",

@@ -55,6 +55,16 @@ def test_a_run_ends_at_its_next_look(page):
     assert isinstance(results[0], Stopped) and run.reached == 1.5
 
 
+def test_an_answer_that_waits_for_its_session_is_forgotten_when_a_newer_begins(page):
+    results = []
+    page.runs.begin(Run(lambda run: "old", told(results)), "a")
+    until(lambda: not page.posted.empty())
+    page.runs.begin(Run(lambda run: "new", told(results)), "a")
+    page.next()
+    page.next()
+    assert results == ["new"]
+
+
 def test_a_run_that_waits_for_a_thread_ends_at_once(page, busy):
     results = []
     waiting = Run(lambda run: results.append("worked"), told(results))

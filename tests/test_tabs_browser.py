@@ -76,6 +76,7 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
         button = again.get_by_role("button", name="Compute the map")
         button.wait_for()
         assert again.evaluate(ROWS) == rows and button.is_enabled()
+        again.get_by_role("radio", name="ordinary tops").click()  # which nobody has seen yet
         button.click()
         again.get_by_role("button", name="Cancel").and_(again.locator("[aria-disabled=false]")).wait_for()
         again.wait_for_function(f"rows => ({ROWS})() == rows", arg=rows)

@@ -185,8 +185,11 @@ class Runs:
         language = spoken()
 
         def tell(result: Result) -> None:
-            self._under_way.pop(run, None)
-            self.post(lambda: run.done(result))
+            def done() -> None:
+                self._under_way.pop(run, None)  # not before: until then a newer one has it forgotten
+                run.done(result)
+
+            self.post(done)
 
         def worked() -> None:
             now = _NOW.set(run)

@@ -37,6 +37,9 @@ class Form(Bundled):
             part.param.watch(partial(self._changed, at), [*self._of[at], *files])
         hear(self, sent=self._take)
 
+    def select(self, selector=None):
+        return super().select(selector) + [found for view in self.views for found in view.select(selector)]
+
     def _tree(self, view):
         found = {"at": len(self._parts), "style": style_of(view)}
         self._parts.append(view)

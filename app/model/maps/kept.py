@@ -9,8 +9,7 @@ computes these anew, after a change of the physics; a test compares some of thei
 import hashlib
 import threading
 from collections import OrderedDict
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -33,7 +32,6 @@ SHIPPED = {
 IN_MEMORY, AS_FILES = 64, 100_000_000  # maps; bytes, of which one of 48 x 48 cells takes some 80,000
 _folder: Path | None = None
 _memory: OrderedDict[Map, Level] = OrderedDict()
-_claimed: set[Map] = set()  # those that are being computed
 _changing = threading.Lock()
 
 
@@ -41,19 +39,6 @@ def keep_in(folder: Path) -> None:
     """From now on maps are stored in this folder too."""
     global _folder
     _folder = folder
-
-
-@contextmanager
-def claimed(request: Map) -> Iterator[bool]:
-    """Context in which nobody else computes this map; gives whether that is so, or somebody else does already."""
-    with _changing:
-        mine = request not in _claimed
-        _claimed.add(request)
-    try:
-        yield mine
-    finally:
-        if mine:
-            _claimed.discard(request)
 
 
 def recall(request: Map) -> Level | None:

@@ -9,7 +9,7 @@ import panel as pn
 
 from app.model.maps.body import outline_of
 from app.model.maps.choice import AT, MapChoice
-from app.model.maps.kept import claimed, keep, recall
+from app.model.maps.kept import keep, recall
 from app.model.maps.lines import disagreements, lines
 from app.model.maps.maps import AT_FIRST, OWN, QUANTITIES, of_page
 from app.model.maps.solving import run as one_run
@@ -30,7 +30,7 @@ from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage, put_motion
 from app.widgets.form import joined
 from app.widgets.forms import Button
-from app.widgets.once import ONCE, OTHERS
+from app.widgets.once import ONCE
 from app.widgets.plots import pane
 from tippe_core import TopError
 
@@ -202,12 +202,7 @@ class Maps:
         return place if inside else [(low + high) / 2 for low, high in spans(request)]
 
     def _work(self, request, run):
-        while (level := recall(request)) is None:
-            with claimed(request) as mine:
-                if mine:
-                    self._compute(request, run)
-                    continue
-            run.wait(OTHERS)
+        level = ONCE.find(run, request, partial(self._compute, request, run), recall)
         lines(request)
         return level, ONCE.find(run, (disagreements, request), partial(disagreements, level))
 
@@ -219,6 +214,7 @@ class Maps:
                 shown = time.monotonic()
                 self._runs.post(partial(self._show_part, run, level.copy(), run.reached))
         keep(level)
+        return level
 
     def _show_part(self, run, level, share):
         if run is self._run and not run.stopped:
