@@ -86,7 +86,10 @@ class Head {
   };
 
   ask(name, value = "") {
-    if (["share", "language"].includes(name)) this.open(false);
+    if (["share", "language", "level"].includes(name) && this.isOpen) {
+      this.more.focus(); // the menu would cover what is chosen
+      this.open(false);
+    }
     ask(this.model, [++this.count, name, value]);
   }
 
