@@ -1,5 +1,7 @@
 """The arguments of a motion with friction: checked, and converted to the form that kernels use."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -62,6 +64,7 @@ def checked_profile(profile: ArrayLike) -> Array:
 
 
 @checked
+@lru_cache(256)  # each motion of many is checked by it
 def strongest_friction(top: Top) -> float:
     """The coefficient of sliding friction above which, at some tilt and direction of slip, no normal force balances the
     friction on the ball (Painleve's paradox): the minimum of (I1 + a^2 s^2)/(|a| (1 - a c) s).

@@ -16,7 +16,7 @@ from tippe_core.types import Array, Bools
 FINE = 61  # points along each side at which the closed forms are evaluated
 MANY = 20  # more hops than this cost the top a noticeable part of its spin
 TURNED = ("stem", "inverted")
-_strongest, _limits = lru_cache(256)(strongest_friction), lru_cache(256)(thresholds)
+_limits = lru_cache(256)(thresholds)
 WINDOW = ("window_low", "window_high")  # I1/I3 = 1 - a/R and 1 + a/R: the borders between the groups of tops
 
 
@@ -56,7 +56,7 @@ def _excess(request: Map, x: float, y: float) -> dict[str, float]:
     found = {"stands": launch - limits.launch if limits.inverted.stable == "above" else np.nan,
              "leaves": launch - limits.upright.spin if limits.upright.stable == "below" else np.nan}  # fmt: skip
     mu = cell.friction.law.mu if request.law != "viscous" else np.nan  # viscous friction has no upper bound
-    found["painleve"] = mu - _strongest(top)
+    found["painleve"] = mu - strongest_friction(top)
     return found | {"window_low": top.I1 / top.I3 - (1 - top.a), "window_high": top.I1 / top.I3 - (1 + top.a)}
 
 
