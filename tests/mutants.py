@@ -25,7 +25,7 @@ from pathlib import Path
 from fingerprint import core
 from mutants_page import EXPLAINED, LOG, PAGE, functions_in, logged, page
 from mutation import sites
-from reach import KEPT, OPTIONS, ROOT, in_turn, prepare
+from reach import KEPT, OPTIONS, PARTS, ROOT, in_turn, prepare
 
 EACH = 2
 """So many changes of each file are tried at least."""
@@ -43,6 +43,10 @@ class Mutant:
     line: int
     before: str
     after: str
+
+    @property
+    def part(self):
+        return next(part for part in PARTS if self.path.startswith(part))
 
     @functools.cached_property
     def place(self):
@@ -111,14 +115,14 @@ def sample(share):
 
 
 @functools.cache
-def reach():
-    kept = json.loads(KEPT.read_text(encoding="utf-8"))
+def reach(part):
+    kept = json.loads(KEPT.read_text(encoding="utf-8"))[part]
     return [tuple(each) for each in kept["tests"]], kept["reached"]
 
 
 def tests_of(mutant):
     """[(test, seconds that it takes)]; of a function that is new, those of the others of its file."""
-    tests, reached = reach()
+    tests, reached = reach(mutant.part)
     of_file = reached.get(mutant.path, {})
     numbers = of_file.get(mutant.place[0]) or {number for each in of_file.values() for number in each}
     return sorted((tests[number] for number in numbers), key=lambda test: test[1])
@@ -208,18 +212,15 @@ def text():
     return "\n".join(page(logged(), len(sample(SHARE)))) + "\n"
 
 
-def main():
-    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    options.add_argument("--share", type=float, default=SHARE, help="of the changes that no printed equation has")
-    options.add_argument("--minutes", type=float, default=float("inf"), help="then write the page with what is known")
-    options.add_argument("--again", action="store_true", help="try anew what no test noticed")
-    chosen = options.parse_args()
-    prepare()
-    reach()  # once, for all children
-    start, before = time.monotonic(), known(chosen.again)
+def run(part, options):
+    """Tries the changes of one part, which prepare() has to be called for once in a process."""
+    prepare(part)
+    reach(part)  # once, for all children
+    start, before = time.monotonic(), known(options.again)
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
-    todo = (mutant for mutant in sample(chosen.share)
-            if mutant.key not in before and time.monotonic() - start < 60 * chosen.minutes)  # fmt: skip
+    todo = (mutant for mutant in sample(options.share)
+            if mutant.part == part and mutant.key not in before
+            and time.monotonic() - start < 60 * options.minutes)  # fmt: skip
     for mutant, answer in in_turn(noticed, todo):
         by, whole = answer or ("no end", True)
         line = {"file": Path(mutant.path).stem, "before": mutant.before, "after": mutant.after, "by": by,
@@ -228,7 +229,21 @@ def main():
         with LOG.open("a", encoding="utf-8") as log:
             log.write(json.dumps(line, ensure_ascii=False) + "\n")
         print(f"{mutant.path}: {by or 'SURVIVES'} {mutant.after}", flush=True)
-    PAGE.write_text(text(), encoding="utf-8")
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--share", type=float, default=SHARE, help="of the changes that no printed equation has")
+    options.add_argument("--minutes", type=float, default=float("inf"), help="for each part; then write the page")
+    options.add_argument("--again", action="store_true", help="try anew what no test noticed")
+    options.add_argument("--part", choices=PARTS, help="this one alone, without the page")
+    chosen = options.parse_args()
+    if chosen.part:
+        run(chosen.part, chosen)
+    else:
+        for part in PARTS:
+            subprocess.run([sys.executable, __file__, *sys.argv[1:], "--part", part], check=True)
+        PAGE.write_text(text(), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,24 +1,32 @@
 """Which tests run through which function of the core and the model: python tests/reach.py writes data/reach.json, from
-which mutants.py takes the tests that it runs. Kernels run as Python; a test that takes more than 20 s of the
-processor so is left out."""
+which mutants.py takes the tests that it runs. For the core its kernels run as Python, and its own tests are tried; for
+the model kernels are compiled. A test that takes more than 4 s of the processor so is left out."""
 
+import concurrent.futures
+import functools
 import json
 import multiprocessing
 import os
+import re
 import signal
+import subprocess
 import sys
 import time
+from concurrent.futures import Executor, Future
+from contextlib import contextmanager
 from itertools import islice
 from multiprocessing.connection import wait
 from pathlib import Path
 
+import pytest
 from fingerprint import core
 from mutants_page import functions_in
 
 ROOT = Path(__file__).parent.parent
 KEPT = ROOT / "tests" / "data" / "reach.json"
 OPTIONS = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:randomly", "--rootdir", str(ROOT)]
-SECONDS = 20
+PARTS = ("tippe_core", "app/model")
+SECONDS = 4
 EACH = 3
 """So many tests are kept of those that reach a line: the quickest."""
 
@@ -44,7 +52,7 @@ def in_turn(call, arguments):
                 answer = None
             child.join()
             if child.exitcode > 0:  # a mistake here is no answer
-                raise RuntimeError(f"{call.__name__}({argument}) failed")
+                raise RuntimeError(f"failed for {argument}")
             yield argument, answer
 
 
@@ -64,28 +72,61 @@ class Reach:
     def pytest_runtest_logstart(self, nodeid):
         self._coverage.switch_context(nodeid)
         self._start = time.process_time()
-        signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_setup(self):
+        with limited():
+            yield
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_call(self):
+        with limited():
+            yield
 
     def pytest_runtest_logreport(self, report):
         if report.when == "call" and report.passed:
             self.seconds[report.nodeid] = round(time.process_time() - self._start, 2)
-        if report.when == "teardown":
-            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-            self._coverage.switch_context("")
+
+    def pytest_runtest_logfinish(self):
+        self._coverage.switch_context("")
+
+
+@contextmanager
+def limited():
+    """Context that ends by a TimeoutError after SECONDS; after each s more, where the error is lost in a callback."""
+    signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS, 1)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+
+
+class Inline(Executor):
+    """In place of threads: a signal cannot end what another thread computes."""
+
+    def __init__(self, *_):
+        pass
+
+    def submit(self, call, /, *given, **options):
+        future = Future()
+        try:
+            future.set_result(call(*given, **options))
+        except Exception as error:
+            future.set_exception(error)
+        return future
 
 
 def stop(*_):
     raise TimeoutError(f"longer than {SECONDS} s")
 
 
-def measured(file):
+def measured(part, file):
     """{test: seconds}, {path: {line: [test]}} of a file of tests."""
     import coverage
-    import pytest
 
     signal.signal(signal.SIGVTALRM, stop)
-    code = [f"{ROOT}/tippe_core/*", f"{ROOT}/app/model/*"]
-    measure = coverage.Coverage(data_file=None, include=code, config_file=False)
+    concurrent.futures.ThreadPoolExecutor = Inline
+    measure = coverage.Coverage(data_file=None, include=[f"{ROOT}/{part}/*"], config_file=False)
     reach = Reach(measure)
     measure.start()
     pytest.main([*OPTIONS, "-m", "not served and not slow", str(file)], plugins=[reach])
@@ -101,6 +142,14 @@ def measured(file):
     return reach.seconds, lines
 
 
+def tried(part, file):
+    """The same, or None if the limit struck in the middle of a library, from which the file did not recover."""
+    try:
+        return measured(part, file)
+    except Exception:
+        return None
+
+
 def chosen(seconds, lines):
     """{path: {function: its tests}}: for each line the quickest, in the order of their times."""
     found = {}
@@ -113,20 +162,31 @@ def chosen(seconds, lines):
             for path, of_file in found.items()}  # fmt: skip
 
 
-def prepare():
-    """Before children are made: kernels are Python, since stored ones would call the code as it was; and what is slow
-    to import is imported."""
-    os.environ["NUMBA_DISABLE_JIT"] = "1"
+def prepare(part):
+    """Before children are made: what is slow to import is imported; kernels of the core are Python, since stored ones
+    would call the code as it was."""
+    if part == "tippe_core":
+        os.environ["NUMBA_DISABLE_JIT"] = "1"
     sys.path[:0] = [str(ROOT / "tests"), str(ROOT)]
     for name in ("hypothesis", "mpmath", "mujoco", "numba", "playwright.sync_api", "pytest", "scipy.fft", "scipy.stats",
                  "scipy.integrate", "scipy.optimize", "sympy.physics.mechanics"):  # fmt: skip
         __import__(name)
 
 
-def main():
-    prepare()
+def tests_of(part):
+    """The files of tests that may run through it: those of the app, or the others."""
+    for file in sorted((ROOT / "tests").glob("test_*.py")):
+        if not file.stem.endswith("browser") and bool(
+            re.search(r"^ *(from|import) app\b", file.read_text(encoding="utf-8"), re.M)
+        ) == (part == "app/model"):
+            yield file
+
+
+def find(part):
+    """Measures one part, and puts it into the file."""
+    prepare(part)
     seconds, lines = {}, {}
-    for file, found in in_turn(measured, sorted((ROOT / "tests").glob("test_*.py"))):
+    for file, found in in_turn(functools.partial(tried, part), tests_of(part)):
         print(file.name, "did not end" if found is None else f"{len(found[0])} tests", flush=True)
         took, reached = found or ({}, {})
         seconds |= took
@@ -136,7 +196,8 @@ def main():
     reached = chosen(seconds, lines)
     tests = sorted({test for of_file in reached.values() for each in of_file.values() for test in each})
     number = {test: i for i, test in enumerate(tests)}
-    kept = {
+    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
+    kept[part] = {
         "tests": [[test.removeprefix("tests/"), seconds[test]] for test in tests],
         "reached": {path: {name: [number[test] for test in each] for name, each in of_file.items()}
                     for path, of_file in reached.items()},
@@ -145,4 +206,8 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    if sys.argv[1:]:
+        find(sys.argv[1])
+    else:
+        for each in PARTS:
+            subprocess.run([sys.executable, __file__, each], check=True)
