@@ -135,7 +135,7 @@ def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatc
             for _ in range(3)
         ]
         assert [each.result() for each in waits] == [found] * 3
-    assert len(asked) == 1 and not ends._under_way
+    assert len(asked) == 1 and not ends.ONCE._claimed
 
 
 def test_after_one_who_stops_only_one_of_the_others_computes(monkeypatch):
@@ -163,7 +163,7 @@ def test_after_one_who_stops_only_one_of_the_others_computes(monkeypatch):
         assert second_computes.wait(60)
         three = threads.submit(ends.ends_once, start_of(TOY, 0.0, TILT, 0.77), look=lambda share: third_came.set())
         assert isinstance(one.exception(), Stopped) and two.result() is three.result() is found
-    assert len(asked) == 2 and not ends._under_way
+    assert len(asked) == 2 and not ends.ONCE._claimed
 
 
 @pytest.fixture

@@ -4,16 +4,16 @@ import threading
 
 import pytest
 
+from app.model import once
+from app.model.once import Once
 from app.model.runs import Run, Stopped
-from app.widgets import once
-from app.widgets.once import Once
 
 
 class Asking:
     """A Run of another page, in a thread of its own, that asks for the answer to `asked`."""
 
     def __init__(self, answers, asked, work):
-        self.waits, self.run = threading.Event(), Run(lambda run: answers.find(run, asked, work), print)
+        self.waits, self.run = threading.Event(), Run(lambda run: answers.find(run.wait, asked, work), print)
         wait = self.run.wait
         self.run.wait = lambda seconds: (self.waits.set(), wait(seconds))
         self._thread = threading.Thread(target=lambda: setattr(self, "found", self.run.result()), daemon=True)

@@ -20,7 +20,7 @@ def animation_glb(scene, slower=16.0, described=None, name="rolling"):
     up.
 
     slower: how many times longer than the real motion the animation takes; this is also in the asset's extras. scene: a
-    Scene, or an object with the same attributes, such as saved_runs.Shown; said: its parameters; name: that of the
+    Scene, or an object with the same attributes, such as saved_runs.Shown; described: its parameters; name: that of the
     animation. The keyframes are the frames of the scene; the body's origin is O, which is a above G along the axis.
     """
     R, motion, described = scene.scales.R, scene.trajectory, described or parameters(scene)

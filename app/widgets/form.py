@@ -21,7 +21,7 @@ class Form(Bundled):
     columns keep what they have."""
 
     parts = param.String(default="{}", constant=True, doc="JSON. tree: kind (of a part, or words or column), at (its "
-                         "number), style, sheet (of words), inside; sheets: CSS")  # fmt: skip
+                         "number), style, sends (names), sheet (of words), inside; sheets: CSS")  # fmt: skip
     state = param.String(default="{}", doc="JSON. heard: how many messages; of: what each part shows, by its number")
     sent = param.List(default=[0, 0, "", None], doc="[how many so far, number of a part, what of it, its new value]")
     file = param.List(default=[], doc="[number of a Download, its newest file]")
@@ -48,7 +48,7 @@ class Form(Bundled):
         if isinstance(view, pn.pane.HTML):
             sheet = "".join(view.stylesheets)
             return found | {"kind": "words", "sheet": self._sheets.setdefault(sheet, len(self._sheets))}
-        return found | {"kind": type(view).__name__}
+        return found | {"kind": type(view).__name__, "sends": [*view.SENDS]}
 
     def _state(self):
         return json.dumps({"heard": self._heard, "of": self._of})

@@ -22,7 +22,7 @@ def hear(component, **does):
 
 
 def one_of(known):
-    """A reader for asked.parts: one of these texts."""
+    """A reader for validate.parts: one of these texts."""
 
     def read(value):
         if isinstance(value, str) and value in known:

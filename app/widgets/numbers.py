@@ -15,7 +15,7 @@ from app.widgets.forms import hear
 class NumberControls(Bundled):
     """The group in the browser.
 
-    Only Python writes `state` and only the browser `asked`, so neither comes back as a request of the other. The
+    Only Python writes `state` and only the browser `request`, so neither comes back as a request of the other. The
     browser counts its requests; `state` names the last one that it answers; until then a control stays where a hand
     put it.
     """
@@ -32,9 +32,9 @@ def heading(text, choice=None):
 
 
 def number(name, wording, *, lines=0, marks=()):
-    """A number control. said: its words: name, typed (that of its field) and unit; html, speaks: the name and the unit
-    as they are shown and read aloud; hint: on hover; lines: of words that are reserved below; marks: (value, word) of
-    named places on the slider."""
+    """A number control. wording: its words: name, typed (that of its field) and unit; html, speaks: the name and the
+    unit as they are shown and read aloud; hint: on hover; lines: of words that are reserved below; marks: (value, word)
+    of named places on the slider."""
     return {"kind": "number", "name": name, "wording": wording, "lines": lines, "marks": [list(mark) for mark in marks]}
 
 

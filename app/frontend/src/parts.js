@@ -34,6 +34,10 @@ const ICONS = {
   back: "M3 3h2v12H3zM15 3v12L6 9z", forward: "M13 3h2v12h-2zM3 3l9 6-9 6z",
 };
 
+// In px; NaN while the element stands nowhere.
+/** @param {Element} element */
+export const fontSize = (element) => parseFloat(getComputedStyle(element).fontSize);
+
 /** @param {"play" | "pause" | "again" | "back" | "forward"} name */
 export const icon = (name) => drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" },
   drawn("path", { d: ICONS[name], ...(name === "again" ? { fill: "none", stroke: "currentColor", "stroke-width": 2 } : { fill: "currentColor" }) }));

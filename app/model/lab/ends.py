@@ -2,6 +2,7 @@
 by all visitors."""
 
 import threading
+import time
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model import arrival
+from app.model.once import ONCE
 from app.model.phases import NODS, STANDS
 from app.model.setup import SECONDS, Setup, start_of
 from app.text import say
@@ -26,7 +28,6 @@ UNDECIDED = ("leans", "upright")
 HIGH, LOW = np.radians(180 - STANDS[0]), np.radians(NODS)  # as the judge's phases
 CLOSE = 2  # cells: if the end changes again within so few, the ends are called mixed
 MOST = 64  # the number of Ends that are stored
-LOOKS = 0.2  # s between two checks of a page that waits for the result of another
 
 
 class Segment(NamedTuple):
@@ -60,8 +61,7 @@ class Ends(NamedTuple):
 
 
 _kept: OrderedDict[Setup, Ends] = OrderedDict()
-_under_way: set[Setup] = set()
-_changing = threading.Condition()  # guards _kept and _under_way; notified when a computation ends
+_changing = threading.Lock()
 
 
 def of_spins(start: Setup) -> Setup:
@@ -100,24 +100,14 @@ def ends_of(start: Setup, look: Callable[[float], object] | None = None) -> Ends
 def ends_once(start: Setup, look: Callable[[float], object] | None = None) -> Ends:
     """ends_of(), but if several pages ask for the same Ends at the same time, only one of them computes it."""
     key = of_spins(start)
-    while not _taken(key):
+
+    def wait(seconds: float) -> None:
+        time.sleep(seconds)
         if look is not None:
             look(0.0)
-    try:
-        return known_ends(key) or ends_of(key, look=look)
-    finally:
-        with _changing:
-            _under_way.discard(key)
-            _changing.notify_all()
 
-
-def _taken(key: Setup) -> bool:
-    """Whether the caller should compute it; waits up to LOOKS seconds if another page is doing so."""
-    with _changing:
-        free = _changing.wait_for(lambda: key not in _under_way, LOOKS)
-        if free:
-            _under_way.add(key)
-    return free
+    found: Ends = ONCE.find(wait, key, partial(ends_of, key, look=look), known_ends)
+    return found
 
 
 def _codes(starts: list[Setup], look: Callable[[float], object]) -> tuple[str, ...]:

@@ -42,8 +42,8 @@ class LabScene:
     """Everything that the Lab shows. table, start: its inputs.
 
     motions: {table: TableMotion or None}; None if the table is not watched, or if there is no motion: then refused has
-    a sentence that says why. stories: {table: Story} of these motions. said: the headline and the explanation for all
-    three together. keeps: {table: its keeps()} for all three; turning: while_it_turns() of the ordinary
+    a sentence that says why. stories: {table: Story} of these motions. wording: the headline and the explanation for
+    all three together. keeps: {table: its keeps()} for all three; turning: while_it_turns() of the ordinary
     one. messages: {input: a sentence} for each input that was
     refused; the rest is then the last valid scene. whole: whether the motions are computed to their end.
     """

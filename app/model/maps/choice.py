@@ -12,7 +12,7 @@ FIXED = ("spin", "tilt", "slip", "mu", "second")
 
 
 class MapChoice(param.Parameterized):
-    """asked: the Map; colour: one of COLOURS_BY; place: the position of the bead, across and up."""
+    """request: the Map; colour: one of COLOURS_BY; place: the position of the bead, across and up."""
 
     INPUTS: ClassVar = ("request", "colour", "place")
 

@@ -10,11 +10,11 @@ from bokeh.palettes import Viridis256
 from app.model.build.builder import thrown
 from app.model.colours import FAINT, INK
 from app.model.families.family import ordinary, share_map
+from app.model.once import ONCE
 from app.model.runs import Run, Runs, Stopped
 from app.text import error_text, listed, say, written
 from app.widgets.cards import alert, flow, note, progress, words
 from app.widgets.forms import Button, Choice, Field
-from app.widgets.once import ONCE
 from app.widgets.plots import decimals, draw, in_language, pane, plain
 from tippe_core import TopError, TruncatedSphere
 
@@ -121,7 +121,7 @@ class Compare:
         self._runs.begin(self._run, "map")
 
     def _work(self, wanted, span, run):
-        found = ONCE.find(run, (share_map, *wanted), lambda: self._computed(*wanted, span, run))
+        found = ONCE.find(run.wait, (share_map, *wanted), lambda: self._computed(*wanted, span, run))
         self._runs.post(partial(self._show_rows, run, found.share.size, found, span))
 
     def _computed(self, I1, K_R, mu_s, kind, span, run):

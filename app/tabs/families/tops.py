@@ -7,13 +7,13 @@ import numpy as np
 from app.model.arrival import MU, TILT
 from app.model.build.dimensions import named as spoken_name
 from app.model.families.known_tops import KnownTop, known_of, known_tops
+from app.model.once import ONCE
 from app.model.runs import Run, Runs, Stopped
 from app.model.setup import PATCH
 from app.tabs.families.drawings import LETTERS, pair
 from app.text import say, spoken
 from app.widgets.cards import alert, flow, note, words
 from app.widgets.forms import Button
-from app.widgets.once import ONCE
 from app.widgets.tops_map import TopsMap
 
 HIGH = 620  # px
@@ -58,7 +58,7 @@ class Tops:
         self._runs.begin(Run(partial(self._made, top, self._scene.mu_s), self._drawn), "families")
 
     def _made(self, top, mu_s, run):
-        return ONCE.find(run, (pair, top.name, mu_s, spoken()), lambda: pair(top.shown(mu_s), mu_s))
+        return ONCE.find(run.wait, (pair, top.name, mu_s, spoken()), lambda: pair(top.shown(mu_s), mu_s))
 
     def _drawn(self, result):
         failed = isinstance(result, Exception)

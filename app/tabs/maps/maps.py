@@ -15,6 +15,7 @@ from app.model.maps.maps import AT_FIRST, OWN, QUANTITIES, of_page
 from app.model.maps.solving import run as one_run
 from app.model.maps.solving import solve
 from app.model.maps.throw import throw_of
+from app.model.once import ONCE
 from app.model.runs import MAPS, WORK, Run, Runs, Stopped
 from app.state import validate as sent
 from app.tabs.maps.asking import Settings, spans
@@ -30,7 +31,6 @@ from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage, put_motion
 from app.widgets.form import joined
 from app.widgets.forms import Button
-from app.widgets.once import ONCE
 from app.widgets.plots import pane
 from tippe_core import TopError
 
@@ -202,9 +202,9 @@ class Maps:
         return place if inside else [(low + high) / 2 for low, high in spans(request)]
 
     def _work(self, request, run):
-        level = ONCE.find(run, request, partial(self._compute, request, run), recall)
+        level = ONCE.find(run.wait, request, partial(self._compute, request, run), recall)
         lines(request)
-        return level, ONCE.find(run, (disagreements, request), partial(disagreements, level))
+        return level, ONCE.find(run.wait, (disagreements, request), partial(disagreements, level))
 
     def _compute(self, request, run):
         shown = 0.0
@@ -295,7 +295,7 @@ class Maps:
 
     @staticmethod
     def _run_of(request, across, up, run):
-        return ONCE.find(run, (one_run, request, across, up), lambda: one_run(request, across, up, run.look))
+        return ONCE.find(run.wait, (one_run, request, across, up), lambda: one_run(request, across, up, run.look))
 
     def _thrown(self, place):
         """The start of the run at a place in the Lab; None if it has none there."""

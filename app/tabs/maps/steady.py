@@ -11,12 +11,12 @@ from app.model import ends
 from app.model.colours import ACCENT, INK
 from app.model.maps.rates import rates
 from app.model.maps.steady import bifurcation, spins_of
+from app.model.once import ONCE
 from app.model.runs import MAPS, WORK, Run, Stopped
 from app.tabs.maps.words import with_unit
 from app.text import error_text, listed, say
 from app.widgets.cards import Hidden, alert, note, words
 from app.widgets.failure import ended
-from app.widgets.once import ONCE
 from app.widgets.plots import draw, pane, plain
 from tippe_core import TopError
 
@@ -96,7 +96,7 @@ class Steady:
         self.says.object = note(say("maps.steady.waits"))
         wanted = bifurcation, request, *place
         work = lambda run: (bifurcation(request, place, run.look), rates(request, place, run.look))  # noqa: E731
-        run = Run(lambda run: ONCE.find(run, wanted, partial(work, run)), partial(self._done, key, x))
+        run = Run(lambda run: ONCE.find(run.wait, wanted, partial(work, run)), partial(self._done, key, x))
         self._runs.begin(run, "maps-steady", WORK if wanted in ONCE else MAPS)
 
     def _done(self, key, x, result):

@@ -48,7 +48,7 @@ class MeasuredFile(Bundled):
 
 class Brought:
     """file: the input. take: called with a table's text, n if it has every n-th row, and the file's name; refuse: with
-    a MeasuredError. said: the words that say that a file is being opened."""
+    a MeasuredError. wording: the words that say that a file is being opened."""
 
     def __init__(self, runs, take, refuse, wording):
         self._runs, self._take, self._refuse, self._wording, self._pieces = runs, take, refuse, wording, []

@@ -16,6 +16,7 @@ from app.model.measured.remembered import stored_fit
 from app.model.measured.shown import placed
 from app.model.measured.table import read
 from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, part_of
+from app.model.once import ONCE
 from app.model.runs import Run, Runs, Stopped
 from app.tabs.measure.asks import Asks
 from app.tabs.measure.columns import Columns
@@ -30,7 +31,6 @@ from app.widgets.cards import alert, areas, column, flow, note, words
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage
 from app.widgets.forms import Button, Checks, Choice
-from app.widgets.once import ONCE
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
@@ -275,7 +275,8 @@ class Measure:
     def _shared(self, kind, work):
         """The work of a Run, which is done once for all pages if it is about an example as it is."""
         request = kind, self._example, self.law.value, self._loose
-        return partial(ONCE.find, request=request, work=work) if self._is_whole_example else lambda run: work()
+        shared = self._is_whole_example
+        return lambda run: ONCE.find(run.wait, request, work) if shared else work()
 
     @property
     def _is_at_hand(self):

@@ -2,7 +2,7 @@
 import { fill, tidy } from "../data.js";
 import { entry } from "./entry.js";
 import { explain } from "./wrong.js";
-import { part, read, say, written } from "../parts.js";
+import { fontSize, part, read, say, written } from "../parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
 const WIDTH = 340, NARROW = 260, WIDE = 5.6, APART = 16; // px: least width of the strip of ends and of a track with marks, a letter below it, a gap between words
@@ -248,7 +248,7 @@ export class Control {
     else {
       const [left, right] = large[0] < next[0] ? [large, next] : [next, large];
       const [from, at] = [left, right].map(([start]) => (start - low) / (high - low));
-      const wide = (WIDE * Math.max(TYPE, parseFloat(getComputedStyle(this.element).fontSize) || 0)) / TYPE;
+      const wide = (WIDE * Math.max(TYPE, fontSize(this.element) || 0)) / TYPE;
       const letters = wide * (left[3].length + right[3].length), room = (at - from) * WIDTH > wide * left[3].length + APART;
       if (room || letters + APART < (1 - first) * WIDTH) line.append(part("span", {}, left[3]));
       if (room) Object.assign(line.children[0].style, { position: "absolute", left: this.along(from) }); // below its own part

@@ -4,7 +4,7 @@ import { caps, trail } from "./caps.js";
 import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "../motion/curves.js";
 import { levels as grid, marks, times } from "../figures/line.js";
 import { lineOf } from "./numbers.js";
-import { Choice, drawn, dress, part, say } from "../parts.js";
+import { Choice, drawn, dress, fontSize, part, say } from "../parts.js";
 import { Frames } from "../motion/frames.js";
 
 const NAMES = ["energy", "spin", "path", "trace"];
@@ -23,7 +23,7 @@ export class Answer {
     this.chosen = chosen;
     this.texts = texts;
     this.time = time;
-    this.width = this.height = this.bottom = 0; // px; not known yet
+    this.width = this.height = this.bottom = this.size = this.left = 0; // px; not known yet; size: of the font
     /** @type {((t: number) => void)[]} */
     this.moves = []; // functions that draw the parts that move differently
     this.name = "energy";
@@ -103,11 +103,6 @@ export class Answer {
     this.draw();
   }
 
-  // font size in px
-  get size() { return parseFloat(getComputedStyle(this.plot).fontSize); }
-
-  get left() { return LEFT * this.size; }
-
   get right() { return this.width - RIGHT; }
 
   x = (t) => this.left + ((this.right - this.left) * t) / (this.time.span || 1);
@@ -121,7 +116,8 @@ export class Answer {
     if (!width || !scene) return;
     this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), wording.note,
       ...(this.before && name !== "trace" ? [texts.note_then] : []), name === "trace" && scene.run?.trace ? ` ${scene.run.trace}` : "");
-    Object.assign(this, { width, height, bottom: height - FOOT });
+    const size = fontSize(this.plot);
+    Object.assign(this, { width, height, size, left: LEFT * size, bottom: height - FOOT });
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
     this.moves = [];
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);

@@ -1,7 +1,7 @@
 // The tilt over time, which also controls the time: play, drag anywhere on it, the speed, and back to the start.
 import { latest, placed, TABLES, ticks, TILT } from "../motion/curves.js";
 import { FOOT, LEFT, levels, marks, RIGHT, TimeLine, times } from "../figures/line.js";
-import { drawn, icon, part, say } from "../parts.js";
+import { drawn, fontSize, icon, part, say } from "../parts.js";
 import { SPEEDS } from "./time.js";
 
 const GAP = 6; // px between the plot and what is left of it
@@ -14,6 +14,7 @@ export class Strip extends TimeLine {
     super(texts, time, { label: texts.time, step: 0.01 });
     /** @type {import("../motion/curves.js").Curves | null} */
     this.before = null;
+    this.size = 0; // px, of the font; not known yet
     this.clock = part("span", { class: "clock" });
     this.speed = part("select", {
       class: "speed", "aria-label": texts.speed, onchange: () => time.chose(Number(this.speed.value)),
@@ -32,9 +33,6 @@ export class Strip extends TimeLine {
 
   // By the whole: the plot is wider beside short words, and would not be narrow then.
   get isNarrow() { return this.element.clientWidth < NARROW; }
-
-  // font size in px
-  get size() { return parseFloat(getComputedStyle(this.plot).fontSize); }
 
   y = (tilt) => this.bottom - ((this.bottom - this.top) * tilt) / 180;
 
@@ -58,7 +56,8 @@ export class Strip extends TimeLine {
   draw() {
     const { clientWidth: width, clientHeight: height } = this.plot, { scene } = this;
     if (!width || !scene) return;
-    Object.assign(this, { width, top: 19 + 1.2 * this.size, bottom: height - FOOT });
+    const size = fontSize(this.plot);
+    Object.assign(this, { width, size, top: 19 + 1.2 * size, bottom: height - FOOT });
     this.writeSpeeds();
     const shown = scene.table === "three" ? TABLES : [scene.table];
     const lines = shown.filter((table) => scene.curves[table].count).map((table) => {

@@ -5,7 +5,7 @@ import { followClock } from "../figures/seeking.js";
 import { followLook, lifeOf, report } from "../life.js";
 import { timeOf } from "../motion/clock.js";
 import { nameOf, ROLLS } from "../regimes.js";
-import { dress, part } from "../parts.js";
+import { dress, fontSize, part } from "../parts.js";
 import { Hand } from "./hand.js";
 import { Picture } from "./picture.js";
 import { limitsFrom } from "./reading.js";
@@ -83,7 +83,7 @@ export class PlaneFigure {
   show() {
     const { model, picture, drawing } = this, { texts } = model, state = JSON.parse(model.state), { clientWidth: width, clientHeight: height } = drawing;
     if (state.K_J === undefined || !state.K_J_range || !model.limits?.byteLength || !width || !height) return;
-    const size = parseFloat(getComputedStyle(drawing).fontSize), drawnAs = [width, height, size, state.theta_range, state.K_J_range, state.mu_s].join();
+    const size = fontSize(drawing), drawnAs = [width, height, size, state.theta_range, state.K_J_range, state.mu_s].join();
     const hasLimits = this.isNew("limits", (bytes) => (this.limits = limitsFrom(bytes, texts.limited_by)));
     const isAnew = hasLimits || drawnAs !== this.drawnAs;
     const goes = this.isNew("path", (bytes) => (this.path = bytes?.byteLength ? columnsOf(bytes, ["theta", "low", "high", "K_J", "K_R"]) : null));

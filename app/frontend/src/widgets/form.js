@@ -11,12 +11,8 @@ import { part } from "../parts.js";
 import { modelOf } from "../stand_in.js";
 import { renderDownload as Download } from "./download.js";
 
-/** @type {Record<string, { render: (rendering: any) => any, sends: string[] }>} */
-const kinds = {
-  Button: { render: Button, sends: ["clicks"] }, Checks: { render: Checks, sends: ["value"] }, Choice: { render: Choice, sends: ["value"] },
-  Download: { render: Download, sends: ["clicks"] }, Field: { render: Field, sends: ["value"] }, Menu: { render: Menu, sends: ["value"] },
-  Stretch: { render: Stretch, sends: ["pulled"] }, TextFile: { render: TextFile, sends: ["sent"] },
-};
+/** @type {Record<string, (rendering: any) => any>} */
+const kinds = { Button, Checks, Choice, Download, Field, Menu, Stretch, TextFile };
 const style = `.column { display: flex; flex-direction: column; } .column > * { flex: 0 0 auto; align-self: stretch; min-width: 0; box-sizing: border-box; } [hidden] { display: none !important; }`;
 
 class Form {
@@ -36,7 +32,7 @@ class Form {
     atEnd(life, () => this.parts.forEach((_, at) => this.put(at, { remove: {} })));
   }
 
-  make({ kind, at, style: looks, sheet, inside }, of) {
+  make({ kind, at, style: looks, sends = [], sheet, inside }, of) {
     const place = part("div", { style: looks, class: kind }), model = modelOf(of[at]);
     this.parts.set(at, model);
     follow(model, ["visible"], () => (place.hidden = !model.visible));
@@ -47,8 +43,8 @@ class Form {
     const el = part("div");
     place.attachShadow({ mode: "open" }).append(...(kind === "words" ? [part("style", {}, this.sheets[sheet])] : []), el);
     if (kind === "words") follow(model, ["object"], () => (el.innerHTML = model.object));
-    else kinds[kind].render({ model, el, view: {} });
-    for (const name of kinds[kind]?.sends ?? []) model.on(name, () => this.isShowing || this.send(at, name, model[name]));
+    else kinds[kind]({ model, el, view: {} });
+    for (const name of sends) model.on(name, () => this.isShowing || this.send(at, name, model[name]));
     return place;
   }
 

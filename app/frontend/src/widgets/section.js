@@ -6,7 +6,7 @@ import { coalesce, fill, set, tidy } from "../data.js";
 import { clamp } from "../figures/curves.js";
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { atEnd, onLook } from "../life.js";
-import { drawn, dress, part } from "../parts.js";
+import { drawn, dress, fontSize, part } from "../parts.js";
 
 const REACH = { mouse: 16, touch: 26 }, RING = 8; // px
 const COLUMN = 30, STEP = 24, HEAD = 7; // px: from the body to the first of the heights, between two of them; of an arrow
@@ -141,7 +141,7 @@ class Bench {
     /** @type {Section} */
     const state = JSON.parse(model.state);
     if (!wide || !high || !state.parts) return;
-    const size = parseFloat(getComputedStyle(svg).fontSize);
+    const size = fontSize(svg);
     this.state = state;
     if (!this.held || !this.view) this.view = viewOf(state, { wide, high, size });
     svg.setAttribute("viewBox", `0 0 ${wide} ${high}`);
