@@ -60,7 +60,7 @@ curdoc().add_root(column(slider, fig))
 WATCH = """
 (ours) => {
   const bench = window.bench = {inputs: [], figure: [], page: []}
-  const models = [...Bokeh.documents[0]._all_models.values()]
+  const models = Bokeh.documents.flatMap((doc) => [...doc.all_models])
   const dial = models.find((m) => m.data?.parts && JSON.parse(m.data.state).values.K_J == 7)?.data
   const slider = models.find((m) => m.type.includes("Slider") && m.value == 7)
   const hand = ours ? dial.properties.request : slider.properties.value
@@ -100,7 +100,7 @@ WATCH = """
 ARRIVALS = """
 (() => {
   const came = window.came = {}
-  const models = () => [...(window.Bokeh?.documents?.[0]?._all_models?.values() ?? [])]
+  const models = () => (window.Bokeh?.documents ?? []).flatMap((doc) => [...doc.all_models])
   const parts = Object.entries(PARTS)
   const look = setInterval(() => {
     for (const [part, is] of parts) if (!came[part] && is(models)) came[part] = performance.now()

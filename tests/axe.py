@@ -14,7 +14,7 @@ AXE = """([rules, leaves_out]) => {
 }"""
 
 # Only the browser knows the look: once it is set there, the page has it.
-LOOK = """([dark, large]) => [...Bokeh.documents[0]._all_models.values()]
+LOOK = """([dark, large]) => Bokeh.documents.flatMap((doc) => [...doc.all_models])
     .find((m) => m.data?.attributes && "large" in m.data.attributes).data.setv({dark, large})"""
 LIGHT, DARK, LARGE, DARK_LARGE = (False, False), (True, False), (False, True), (True, True)
 

@@ -30,7 +30,7 @@ SHOWN = ("panel", "bokeh", "param", "numpy", "scipy", "tornado", "matplotlib", "
 VISITORS = 4
 # Whether a panel of the Lab has its content.
 CHOSEN = """panel => {
-    const [doc] = Bokeh.documents, models = [...doc._all_models.values()]
+    const [doc] = Bokeh.documents, models = [...doc.all_models]
     const values = (options) => [...(options instanceof Map ? options.values() : Object.values(options))]
     const [choice] = models.filter(({data}) => data?.options && values(data.options).includes(panel))
     return choice.data.value == panel && doc.is_idle

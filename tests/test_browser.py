@@ -17,7 +17,7 @@ from tippe_core import PRESETS, Top, glide, grip, roll, slide
 
 pytestmark = pytest.mark.served
 
-MODELS = "[...Bokeh.documents[0]._all_models.values()]"
+MODELS = "Bokeh.documents.flatMap((doc) => [...doc.all_models])"
 # The columns of a name of the sources in a figure, in the order of the tables.
 COLUMN = f"""
 ([figure, column]) => {MODELS}.find((m) => m.name == figure && m.renderers).renderers

@@ -15,7 +15,7 @@ from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
 
 pytestmark = pytest.mark.served
 
-MODELS = "[...Bokeh.documents[0]._all_models.values()]"
+MODELS = "Bokeh.documents.flatMap((doc) => [...doc.all_models])"
 SHOWN = f"JSON.parse({MODELS}.find((m) => m.attributes.data?.attributes?.tapped).data.state)"
 # The greatest height of the body that the section shows, in mm.
 SECTION = f"() => Math.max(...({SHOWN}.parts?.body[0] ?? []).map(([, z]) => z))"

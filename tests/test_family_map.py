@@ -148,8 +148,8 @@ def test_a_map_of_either_kind_fills_and_shows_this_top(explorer, monkeypatch):
     for kind, own in (("tippe", 1), ("ordinary", 0)):
         compare.kind.value = kind
         compare.compute()
-        assert np.all((compare.shares.data["share"][0] > 0) & (compare.shares.data["share"][0] < 1))
-        assert len(compare.here.data["a"]) == own
+        assert np.all((compare.map.shares.data["share"][0] > 0) & (compare.map.shares.data["share"][0] < 1))
+        assert len(compare.map.here.data["a"]) == own
         assert compare.cancel.disabled and not compare.start.disabled
 
 

@@ -51,7 +51,7 @@ SPECIAL = (
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
 HANDS = ("NumberControls", "Field", "Menu", "Choice", "Checks", "Stretch", "TextFile", "Head", "Painted",
-         "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "EventList", "Range1d", "ColumnDataSource",
+         "Top3D", "Surface3D", "PlaneView", "SectionView", "LabView", "EventList", "Drawing",
          "Location", "Button", "Form")  # fmt: skip
 
 
@@ -366,12 +366,12 @@ def look(*events, models, buffers=()):
       [1, 3, "clicks", -1], [-1, 3, "clicks", 1], [1, 0, "visible", True], [1, 4, "value", "a"], [1, -1, "value", "a"],
       [1, True, "value", "a"], [1, "1", "value", "a"], [1, 4, "object", "a"]]),
     ("New1", "anything", [], [None, 7]),
-    ("figure", "inner_width", [300], [None, "300", float("inf")]),
-    ("figure", "renderers", [], [[], None]),
+    ("figure", "inner_width", [], [300, None]),
     ("LinearAxis", "axis_line_color", [], ["red", None]),
-    ("ColumnDataSource", "data", [{"type": "map", "entries": [["x", [0.5]], ["z", ["a"]]]}],
-     [None, {"type": "map", "entries": [["x", [0.5]]]}, {"type": "map", "entries": [["x", [0] * 11], ["z", []]]},
-      {"type": "map", "entries": [["x", [[0]]], ["z", []]]}]),
+    ("Drawing1", "sent", [[1, "p7", {"type": "map", "entries": [["x", [0.5]], ["z", ["a"]]]}]],
+     [None, [1, "p7", None], [1, "p7", {"type": "map", "entries": [["x", [0] * 11], ["z", []]]}], [1, 7, {}],
+      [1, "p7", {"type": "map", "entries": [["x", [[0]]], ["z", []]]}]]),
+    ("ColumnDataSource", "data", [], [{"type": "map", "entries": [["x", [0.5]]]}]),
 ])  # fmt: skip
 def test_what_the_browser_may_change(kind, attribute, takes, refuses):
     has = {"objects": [1, 2, 3], "options": ["a", "b"], "max_length": 20, "start": 0, "end": 1,

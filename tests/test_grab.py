@@ -205,7 +205,8 @@ def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(vis
         visit.page.get_by_role("radio", name=name, exact=True).click()
         visit.page.wait_for_function(
             """name => {
-                const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers)
+                const models = Bokeh.documents.flatMap((doc) => [...doc.all_models])
+                const m = models.find((m) => m.name == name && m.renderers)
                 return m && Bokeh.index.find_one(m)?.frame?.bbox.width > 50
             }""", arg=figure)  # fmt: skip
         line = {"phase": 3, "force": 1, "potential": 1}.get(figure, 0)

@@ -11,7 +11,7 @@ from app.text import listed
 
 pytestmark = pytest.mark.served
 
-MAP = "[...Bokeh.documents[0]._all_models.values()].find((m) => m.name == 'maps' && m.renderers)"
+MAP = "Bokeh.documents.flatMap((doc) => [...doc.all_models]).find((m) => m.name == 'maps' && m.renderers)"
 SIDE = f"() => ({MAP})?.renderers[1].data_source.data.image[0]?.shape?.[0] ?? 0"  # cells along a side
 BEAD = f"() => {{ const {{x, y}} = ({MAP}).renderers.at(-1).data_source.data; return [x[0], y[0]] }}"
 RANGE = f"() => {{ const {{x_range: x, y_range: y}} = {MAP}; return [x.start, x.end, y.start, y.end] }}"

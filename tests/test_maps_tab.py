@@ -15,7 +15,6 @@ from app.server.messages import CHANGES
 from app.state.map_text import MapText
 from app.state.url_state import UrlState, read
 from app.tabs.maps.maps import Maps
-from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import Steady
 from tippe_core import PRESETS, Top, TopError, slide_many
 
@@ -53,9 +52,9 @@ def test_what_stands_below_the_map():
     below = Steady(Runs())
     below.show(Map(seconds=2.0), (28.6, 5.7))
     assert "stands on its stem first at 1.67 s" in below.says.object
-    assert len(below.lines.data["xs"]) == 4 and np.isfinite(below.dots[0].data["y"]).sum() > 30
+    assert len(below.bends.lines.data["xs"]) == 4 and np.isfinite(below.bends.dots[0].data["y"]).sum() > 30
     below.deep.visible = True
-    upright, runs = below.branches["upright"]
+    upright, runs = below.pair.branches["upright"]
     growth = np.interp(runs.data["x"], upright.data["x"], upright.data["growth"])
     good = np.isfinite(runs.data["y"])
     np.testing.assert_allclose(runs.data["y"][good], growth[good], rtol=0.05)
@@ -84,7 +83,7 @@ def test_below_a_place_that_cannot_be_nothing_of_the_one_before_is_left(monkeypa
     below = Steady(Runs())
     below.deep.visible = True
     below.show(Map(seconds=2.0), (28.6, 5.7))
-    assert below.branches["upright"][0].data["x"].size
+    assert below.pair.branches["upright"][0].data["x"].size
 
     def never(*given):
         raise TopError("a", 1.5, "a < 1")
@@ -93,7 +92,7 @@ def test_below_a_place_that_cannot_be_nothing_of_the_one_before_is_left(monkeypa
     below.show(Map(seconds=2.0), (28.6, 8.0))
     assert 'role="alert"' in below.says.object and "tilt of 8°" in below.title.object
     assert not below.rates_title.object and not below.powers.object
-    pictures = below.lines, below.life, *below.dots, *below.sweeps, *sum(below.branches.values(), ())
+    pictures = *below.bends.sources, *below.pair.sources
     assert not any(len(column) for source in pictures for column in source.data.values())
 
 
@@ -184,6 +183,7 @@ def test_as_many_reasons_as_there_are_can_be_gone_to():
 def test_pieces_are_shown_while_it_is_drawn(tab, monkeypatch):
     seen = []
     monkeypatch.setattr("app.tabs.maps.maps.PICTURE_EVERY", -1.0)  # every piece
+    monkeypatch.setattr("app.model.maps.solving.PIECE", 0.0)  # small ones on a fast machine, too
     monkeypatch.setattr(Maps, "_show_part", lambda tab, run, level, share: seen.append(int((level.end != "").sum())))
     tab.settings.entries["seconds"].value = "0.3"
     tab.settings.entries["cells"].value = "24"
@@ -273,9 +273,8 @@ def test_the_map_that_ships_is_what_is_computed():
 
 def test_what_a_hand_on_the_map_sends_is_let_in():
     """What frontend/src/figures/maps.js sends: a place, the middle of a cell, two corners of a box."""
-    source = MapFigure(lambda data: None).hand
     for x, y, cell in (([30.5], [6.5], [0]), ([30.5], [6.5], [1]), ([5.0, 6.0], [1.0, 2.0], [0, 0])):
         entries = [["x", x], ["y", y], ["cell", cell]]
-        assert CHANGES["ColumnDataSource"]["data"].fits({"type": "map", "entries": entries}, source)
+        assert CHANGES["Drawing"]["sent"].fits([1, "p7", {"type": "map", "entries": entries}], None)
     sent = set(re.findall(r"cell: (\[.*?\]) }", (ROOT / "app/frontend/src/figures/maps.js").read_text("utf-8")))
     assert sent == {"[0]", "[0, 0]", "[Number(clicked)]"}

@@ -81,7 +81,7 @@ def test_a_table_without_data_leaves_nothing_of_the_one_before(fitted, text):
 def test_data_that_cannot_be_fitted_leave_nothing_of_the_ones_before(fitted):
     fitted.take(FAR, name="mine.txt")
     assert is_blank(fitted) and "cannot be fitted" in fitted.wording.object
-    assert not any(part.curve.data["t"].size for part in fitted.pictures._parts.values())
+    assert not any(curve.data["t"].size for curve in fitted.pictures._series.curves.values())
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

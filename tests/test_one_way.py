@@ -15,7 +15,6 @@ import param
 import pytest
 from bokeh.document import Document
 from bokeh.models import ColumnDataSource, Label, Range1d, Span
-from bokeh.plotting import figure as Figure
 from doubles import Shown
 from panel.custom import JSComponent
 from panel.io.state import set_curdoc
@@ -40,6 +39,7 @@ from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
 from app.widgets.cards import Hidden
 from app.widgets.controls import FACES, Controls
+from app.widgets.drawing import Remote
 from app.widgets.guide import Guide
 from app.widgets.portraits import Force, Potential, Ring
 from app.widgets.scheduling import RenderScheduler
@@ -165,6 +165,7 @@ def compare(scene):
         view.show(scene)
         view.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
         view._prefill()
+        view._show_span()  # as compute() does
 
     return view, show
 
@@ -205,7 +206,7 @@ def seen(view):
     found, met = {}, set()
 
     def look(thing, path):
-        if isinstance(thing, (Scene, str, int, float, type(None), np.ndarray)) or id(thing) in met:
+        if isinstance(thing, (Scene, str, int, float, type(None), np.ndarray, Remote)) or id(thing) in met:
             return
         met.add(id(thing))
         if isinstance(thing, (dict, list, tuple)):
@@ -225,13 +226,18 @@ def seen(view):
                     continue  # what it has is made when it is first shown
                 if isinstance(part, list) and name == "objects":
                     look(part, f"{path}/{name}")
-                elif name in thing.param and not isinstance(
-                    part, Figure
-                ):  # their data are found where the view stores them
+                elif name in thing.param:
                     found[f"{path}/{name}"] = np.asarray(str(part))
             if isinstance(thing, JSComponent):
                 for name in {*thing.param} - {*Bundled.param}:
                     part = getattr(thing, name)
+                    if name == "looks":  # of a Drawing: what is not visible may be as it was
+                        drawn = [
+                            (id, *sorted(of.items()))
+                            for id, of in part.items()
+                            if of.get("visible", of and "text" not in of)
+                        ]
+                        part = sorted(drawn)
                     known = isinstance(part, bytes)
                     found[f"{path}/{name}"] = np.frombuffer(part, np.uint8) if known else np.asarray(str(part))
         elif type(thing).__module__.startswith("app.") and hasattr(thing, "__dict__"):

@@ -182,7 +182,8 @@ def the_wheel(page):
 
 
 TICKS = """ticks => {
-  const [ours] = [...Bokeh.documents[0].all_models].filter(({ type }) => type === "CustomJSTickFormatter")
+  const models = Bokeh.documents.flatMap((doc) => [...doc.all_models])
+  const ours = models.find(({ type }) => type === "CustomJSTickFormatter")
   const theirs = new (Bokeh.Models.get("BasicTickFormatter"))()
   return [ours, theirs].map(each => each.doFormat(ticks, { loc: 0 }))
 }"""

@@ -35,7 +35,7 @@ page.Session.families, compare.share_map, compare.Compare._work = late, endless,
 """
 # The number of finished rows of the map.
 ROWS = """() => {
-  const map = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "map" && m.renderers)
+  const map = Bokeh.documents.flatMap((doc) => [...doc.all_models]).find((m) => m.name == "map" && m.renderers)
   const share = map?.renderers[0].data_source.data.share[0] ?? []
   return Array.from(share).flat(2).filter(Number.isFinite).length
 }"""

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.served
 
 # The bytes of the motion as the 3-D view has them.
 FRAMES = """() => {
-  const found = [...Bokeh.documents[0]._all_models.values()].find((m) => m.data?.frames_rough)
+  const found = Bokeh.documents.flatMap((doc) => [...doc.all_models]).find((m) => m.data?.frames_rough)
   const frames = found.data.frames_rough
   return Array.from(new Float32Array(frames.buffer ?? frames, frames.byteOffset ?? 0, frames.byteLength / 4))
 }"""
@@ -201,7 +201,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     mailed.wait_for_function("window.__tippe?.tops?.('lab')[0]?.pictures > 2 && __tippe.surface3d?.pictures > 0")
     start = mailed.evaluate("__tippe.tops('lab')[0].t")
     mailed.wait_for_function("t => __tippe.tops('lab')[0].t != t", arg=start)
-    spans = """() => [...Bokeh.documents.flatMap((d) => [...d._all_models.values()])]
+    spans = """() => Bokeh.documents.flatMap((doc) => [...doc.all_models])
         .filter((m) => m.type == "Span" && m.level == "overlay")"""
     mailed.get_by_role("button", name="Pause").click()
     follows = "Math.abs(m.location - unit * __tippe.tops('lab')[0].t) < 1e-9"
@@ -210,7 +210,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     mailed.evaluate("dispatchEvent(new CustomEvent('tippe:seek:lab', {detail: {t: 0.3}}))")
     mailed.wait_for_function("Math.abs(__tippe.plane.selected.theta - __tippe.plane.selected.inner) > 0.01")
     assert "rolls: its tieline" in mailed.evaluate("__tippe.plane.names")
-    shown = mailed.evaluate("""() => Bokeh.documents.flatMap((d) => [...d._all_models.values()])
+    shown = mailed.evaluate("""() => Bokeh.documents.flatMap((doc) => [...doc.all_models])
         .find((m) => m.name == "times-theta" && m.renderers).renderers
         .map(({ data_source }) => Array.from(data_source.data.theta ?? [])).find((theta) => theta.length)""")
     theta = np.degrees(scene.trajectory.theta)

@@ -44,7 +44,7 @@ FEW_FRAMES = """{
 COLUMN = """
 ([figure, renderer, column]) => {
   if (figure == "plane") return Array.from(__tippe.plane.limits[column])
-  const models = [...Bokeh.documents[0]._all_models.values()]
+  const models = Bokeh.documents.flatMap((doc) => [...doc.all_models])
   const found = models.find((m) => m.name == figure && m.renderers)
   return Array.from(found.renderers[renderer].data_source.data[column])
 }
@@ -55,7 +55,7 @@ COLUMN = """
 PIXEL = """
 ([figure, x, y]) => {
   if (figure == "plane") return __tippe.plane.pixel(x, y)
-  const model = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == figure && m.renderers)
+  const model = Bokeh.documents.flatMap((doc) => [...doc.all_models]).find((m) => m.name == figure && m.renderers)
   const {canvas_view: {el}, frame} = Bokeh.index.find_one(model), box = el.getBoundingClientRect()
   return [box.x + frame.x_scale.compute(x), box.y + frame.y_scale.compute(y)]
 }
@@ -261,6 +261,6 @@ class Visit:
             self.page.mouse.move(*(a + (b - a) * i / moves for a, b in zip(start, end, strict=True)))
 
     def pause(self):
-        self.page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
+        self.page.evaluate("""() => Bokeh.documents.flatMap((doc) => [...doc.all_models])
             .filter((m) => m.properties?.playing).forEach((m) => { m.playing = false })""")
         self.page.wait_for_function("!__tippe.top3d.playing")

@@ -6,7 +6,6 @@ the line at the time of the clock) is on Bokeh's overlay level, which is repaint
 
 from pathlib import Path
 
-import panel as pn
 from bokeh.models import (
     AllIndices,
     AllLabels,
@@ -67,12 +66,6 @@ def padded(low, high):
     """The range with some margin below and above."""
     pad = 0.08 * (high - low) or 0.05
     return {"start": low - pad, "end": high + pad}
-
-
-def pane(fig, **styles):
-    """A figure as a part of the page."""
-    height = {"height": fig.height} if fig.sizing_mode == "stretch_width" else {}
-    return pn.pane.Bokeh(fig, sizing_mode=fig.sizing_mode, margin=0, styles=styles, **height)
 
 
 def on_pointer(fig, act, *more):

@@ -18,15 +18,14 @@ from app.widgets.forms import Button
 
 AROUND = (24, 28)
 MOST = 60  # parts of the page that are created in one step; more steps cost more, because each one counts all models
-FIGURE = 20  # parts as which a figure of Bokeh's counts
 AWAY = 600.0  # s after which a room of more parts gives them back; what was entered in it stays
 
 log = logging.getLogger("tippe")
 
 
 def size(view):
-    """How many parts a view has; a figure has many. (Panel's select() asks each of them for its parameters.)"""
-    return FIGURE if isinstance(view, pn.pane.Bokeh) else 1 + sum(map(size, getattr(view, "objects", None) or ()))
+    """How many parts a view has. (Panel's select() asks each of them for its parameters.)"""
+    return 1 + sum(map(size, getattr(view, "objects", None) or ()))
 
 
 def pieces(view, most):

@@ -2,7 +2,6 @@
 clock. A curve has the colour of its quantity; which table it is of is told by its dashes."""
 
 import numpy as np
-import panel as pn
 from bokeh.models import BoxAnnotation, ColumnDataSource, Line, Range1d, VSpan
 
 from app.bundle import call
@@ -10,8 +9,7 @@ from app.model.colours import COLOURS, FAINT, INK
 from app.model.lab.tracks import QUANTITIES, Track, tracks
 from app.model.setup import TABLES
 from app.text import say
-from app.widgets.cards import words
-from app.widgets.plots import draw, on_pointer, pane, plain, rule
+from app.widgets.plots import draw, on_pointer, plain, rule
 
 ROWS = {"theta": ("theta",), "omega3": ("omega3",), "normal": ("normal",), "ratio": ("ratio",), "slip": ("slip",),
         "constants": ("E", "K_J", "K_R")}  # fmt: skip
@@ -107,10 +105,3 @@ class TimeFigures:
             high = {"normal": max(1.5, high), "ratio": max(high, RISES * (mu or 0.0))}.get(name, high)
             pad = 0.08 * (high - low) or 0.05 * (1 + abs(high))
             self.figures[name].y_range.update(start=low - pad, end=high + pad)
-
-
-def row(figures, name, height):
-    """A figure with its label at the left, as a Panel object; height: px."""
-    wording = words(f'<div class="quantity">{label(name)}</div>', width=60, sizing_mode="stretch_height",
-                 margin=(6, 0, 0, 0))  # fmt: skip
-    return pn.Row(wording, pane(figures.figures[name]), sizing_mode="stretch_width", height=height, margin=0)

@@ -6,6 +6,7 @@ import { renderField as Field } from "./controls/field.js";
 import { renderNumberControls as NumberControls } from "./controls/group.js";
 import { renderStretch as Stretch } from "./controls/stretch.js";
 import { offerCallbacks } from "./figures/callbacks.js";
+import { renderDrawing as Drawing } from "./figures/drawing.js";
 import { first, renderFirst as LabView } from "./first.js";
 import { letter } from "./letter.js";
 import { renderLesson as LessonView } from "./learn/lesson.js";
@@ -47,7 +48,7 @@ window.__tippe = { time: timeOf, tops: topsOf, wear }; // for tests only: there 
 
 // Panel finds a component by the name of its Python class.
 const components = {
-  Address, Button, Checks, Choice, Connection, Copy, Download, Embed, Failure, Field, Film, FilmStage, Fold, Form, Frame, Guide, Head,
+  Address, Button, Checks, Choice, Connection, Copy, Download, Drawing, Embed, Failure, Field, Film, FilmStage, Fold, Form, Frame, Guide, Head,
   LabView, LessonView, Lines, Look, MeasuredFile, Menu, EventList, NumberControls, Painted, Paper, Phone, Photo, PlaneView, LiveText,
   SectionView, ShareHead, Steps, Stretch, Surface3D, Symbols, TextFile, Top3D, TopsMap,
 };

@@ -361,9 +361,17 @@ interface StepsModel extends Model {
   points: [word: string, seconds: number, degrees: number][];
 }
 
-// Bokeh's models, as far as they are used here. Changes that are not synced stay in this browser.
+type DrawingModel = Model & Record<`data${number}`, Record<string, any>> & {
+  described: string;
+  heads: string[];
+  looks: Record<string, Record<string, any>>;
+  heard: string[];
+  sent: [count: number, id: string, data: Record<string, any>];
+};
+
+// Bokeh's models, as far as they are used here.
 interface BokehModel {
-  setv(values: Record<string, any>, how: { sync: false }): void;
+  setv(values: Record<string, any>, how?: { sync: false }): void;
   properties: Record<string, { change: { connect(run: () => void): void } }>;
   change: { emit(): void };
 }
@@ -379,7 +387,7 @@ interface Source<Names extends string = string> extends BokehModel {
 // What a person did on a figure: where, in data coordinates and in px.
 type Happened = { event_name: string; x: number; y: number; sx: number; sy: number };
 
-declare const Bokeh: { documents: any[]; index: any; require(path: string): any; Models: any };
+declare const Bokeh: { documents: any[]; index: any; embed: any; require(path: string): any; Models: any };
 
 // What Bokeh passes to app/call.js and app/ticks.js, which it runs.
 declare const run: string, given: any, cb_obj: any, basic: any, ticks: number[], index: number, point: string;

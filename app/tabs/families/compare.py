@@ -14,13 +14,32 @@ from app.model.once import ONCE
 from app.model.runs import Run, Runs, Stopped
 from app.text import error_text, listed, say, written
 from app.widgets.cards import alert, flow, note, progress, words
+from app.widgets.drawing import drawn
 from app.widgets.forms import Button, Choice, Field
-from app.widgets.plots import decimals, draw, in_language, pane, plain
+from app.widgets.plots import decimals, draw, in_language, plain
 from tippe_core import TopError, TruncatedSphere
 
 PICTURE_EVERY = 0.5  # s
 RATIOS = np.linspace(0.6, 1.9, 40)
 SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
+
+
+class ShareFigure:
+    """The map."""
+
+    def __init__(self):
+        bottom, top = _sides(RATIOS)
+        self.figure = fig = plain(height=330, x_range=(0, 1), y_range=(bottom, top), name="map")
+        colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
+        self.shares = ColumnDataSource({"share": [], "x": [], "w": []})
+        self.here = ColumnDataSource({"a": [], "ratio": []})
+        picture = draw(fig, Image, "x", bottom, image="share", dw="w", dh=top - bottom, source=self.shares,
+                       color_mapper=colours)  # fmt: skip
+        draw(fig, Scatter, "a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
+        fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK, major_tick_line_color=FAINT,
+                                formatter=in_language(BasicTickFormatter())), "right")  # fmt: skip
+        fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{3}, I₃/I₁ $y{2}: @share{2}",
+                                formatters=dict.fromkeys(("$x", "$y", "@share"), decimals())))  # fmt: skip
 
 
 class Compare:
@@ -40,18 +59,7 @@ class Compare:
                         for name, symbol in self.FIELDS}  # fmt: skip
         self._prefill()
         self.wording = words()
-        bottom, top = _sides(RATIOS)
-        self.map = fig = plain(height=330, x_range=(0, 1), y_range=(bottom, top), name="map")
-        colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
-        self.shares = ColumnDataSource({"share": [], "x": [], "w": []})
-        self.here = ColumnDataSource({"a": [], "ratio": []})
-        picture = draw(fig, Image, "x", bottom, image="share", dw="w", dh=top - bottom, source=self.shares,
-                       color_mapper=colours)  # fmt: skip
-        draw(fig, Scatter, "a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
-        fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK, major_tick_line_color=FAINT,
-                                formatter=in_language(BasicTickFormatter())), "right")  # fmt: skip
-        fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{3}, I₃/I₁ $y{2}: @share{2}",
-                                formatters=dict.fromkeys(("$x", "$y", "@share"), decimals())))  # fmt: skip
+        self.map = drawn(ShareFigure)
         self._show_span()
         self.bar = words(visible=False, margin=(8, 0))
         self.start = Button(say("family.map.start"), self.compute)
@@ -67,7 +75,7 @@ class Compare:
             self.bar,
             self.wording,
             words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
-            pane(self.map),
+            self.map.drawing,
             words('<div style="text-align: center"><i>a</i>/<i>R</i></div>' + note(say("family.map.here"))),
         ]  # fmt: skip
 
@@ -88,7 +96,7 @@ class Compare:
     def _show_span(self):
         a = SPANS[self.kind.value]
         low, high = _sides(a)
-        self.map.x_range.update(start=low, end=high)
+        self.map.figure.x_range.update(start=low, end=high)
         return {"x": [low], "w": [high - low]}
 
     def _requested(self):
@@ -112,7 +120,7 @@ class Compare:
             return
         top = self._scene.top
         own = abs(top.I1 - request["I1"]) < 1e-3 * top.I1
-        self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
+        self.map.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
         span = self._show_span()
         self.cancel.disabled = False
         self.bar.visible, self.bar.object, self.wording.object = True, _progress(0), ""
@@ -137,7 +145,7 @@ class Compare:
     def _show_rows(self, run, done, found, span):
         """Shows the map as far as it has been computed."""
         if not run.stopped:
-            self.shares.data = {"share": [found.share], **span}
+            self.map.shares.data = {"share": [found.share], **span}
             self.bar.object = _progress(100 * done / found.share.size)
 
     def _done(self, result):

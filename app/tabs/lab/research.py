@@ -17,12 +17,12 @@ from app.tabs.lab.figures import LEDGER, Times, Well
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import ball_words, run_words, scatter_words, table_words
 from app.text import say, written
-from app.widgets.cards import column, note, swatch, words
+from app.widgets.cards import TYPE, column, note, swatch, words
+from app.widgets.drawing import drawn
 from app.widgets.event_list import EventList
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import Choice
-from app.widgets.plots import pane
-from app.widgets.times import ROWS, key, row
+from app.widgets.times import key, label
 from app.widgets.tops_map import TopsMap
 
 ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
@@ -37,6 +37,13 @@ th { color: var(--faint) } .kept { font-weight: 600 } .kept::before { content: "
 .line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
 """
 )
+
+
+TIMES = """
+.one { display: grid; grid-template: minmax(0, 84px) / 60px minmax(0, 1fr) } .head { display: contents }
+.one:last-child { grid-template-rows: auto 130px } .key { grid-column: 1 / 3; margin-top: 6px }
+.quantity { margin-top: 6px }
+"""
 
 
 class Research(param.Parameterized):
@@ -136,7 +143,7 @@ class Research(param.Parameterized):
     # ---- panels of the run: their content, and what draws it ----
 
     def _make_times(self):
-        figures = Times()
+        figures = drawn(Times, stylesheets=[TYPE + TIMES], sizing_mode="stretch_width")
         energies = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
         tables = words(f'<div class="key">{key()}</div>', visible=False)
 
@@ -145,12 +152,12 @@ class Research(param.Parameterized):
             rolling = self._lab.explorer.scene  # some nods at first, if that is all that it does
             figures.show(scene, rolling.trajectory.t[-1] * rolling.scales.time if scene.table == "rough" else np.inf)
 
-        content = [
-            tables, *(row(figures, name, 84) for name in ROWS),
-            words(f'<div class="key" style="margin-top: 6px">{say("planes.keys.ledger")}{energies}</div>'),
-            row(figures, "ledger", 130), words(f'<div class="axis">{say("planes.keys.time")}</div>'),
-        ]  # fmt: skip
-        return content, {"lab": show}
+        of_ledger = f'<div class="key">{say("planes.keys.ledger")}{energies}</div>'
+        figures.drawing.heads = [
+            (of_ledger if name == "ledger" else "") + f'<div class="quantity">{label(name)}</div>'
+            for name in figures.figures
+        ]
+        return [tables, figures.drawing, words(f'<div class="axis">{say("planes.keys.time")}</div>')], {"lab": show}
 
     def _make_values(self):
         happened = EventList(clock="lab", sizing_mode="stretch_width", margin=(4, 0, 0, 0))
@@ -177,7 +184,7 @@ class Research(param.Parameterized):
         return [title, happened, scatters, kept, of_run, self.rolling.kept], {"lab": show}
 
     def _make_ends(self):
-        well, says = Well(), words()
+        well, says = drawn(Well), words()
         tops = TopsMap(lambda top: self._choose(top.name), self._pacer.ask, height=420)
 
         def show(scene):
@@ -188,5 +195,5 @@ class Research(param.Parameterized):
         def head(name):
             return words(f'<h2>{say(f"planes.cards.{name}")}</h2><div class="key">{say(f"planes.keys.{name}")}</div>')
 
-        content = [head("well"), column(pane(well.figure), height=240), says, head("map"), tops]
+        content = [head("well"), column(well.drawing, height=240), says, head("map"), tops]
         return content, {"lab": show}

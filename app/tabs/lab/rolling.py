@@ -10,10 +10,10 @@ from app.state import validate
 from app.text import say
 from app.widgets.cards import column, words
 from app.widgets.controls import named
+from app.widgets.drawing import drawn
 from app.widgets.forms import Choice
 from app.widgets.live_text import live_text
 from app.widgets.plane_card import PlaneCard
-from app.widgets.plots import pane
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.typeset import power
@@ -37,11 +37,11 @@ class Switch:
     def _look(self, chosen):
         if chosen not in self._made:
             kind = self._kinds[chosen]
-            portrait = self._made[chosen] = kind()
+            portrait = self._made[chosen] = drawn(kind)
             across, up = portrait.axes
             self._places[chosen].objects = [
                 words(up),
-                pane(portrait.figure),
+                portrait.drawing,
                 words(f'<div class="axis">{across}</div>'),
             ]
         self.show(self._scene)

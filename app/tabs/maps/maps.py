@@ -27,11 +27,11 @@ from app.text import error_text, listed, say
 from app.widgets.cards import alert, areas, column, flow, note, progress, words
 from app.widgets.copy import Copy
 from app.widgets.download import Download
+from app.widgets.drawing import drawn
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage, put_motion
 from app.widgets.form import joined
 from app.widgets.forms import Button
-from app.widgets.plots import pane
 from tippe_core import TopError
 
 PICTURE_EVERY = 0.3  # s
@@ -68,7 +68,8 @@ class Maps:
         self.worst, self.key = words(), words(margin=(6, 0))
         self.run_says = words(margin=(6, 0), css_classes=["answer"])
         self.disagree = column()  # what is said, and a button for each
-        self.map, self.curve = MapFigure(self._by_hand), RunFigure()
+        self.map, self.curve = drawn(MapFigure), drawn(RunFigure)
+        self.map.hand.on_change("data", lambda attr, old, new: self._by_hand(new))
         self.stage = FilmStage(clock=CLOCK, anew=True, label=say("maps.stage.label"), none=say("maps.stage.none"),
                                sizing_mode="stretch_width", height=260)  # fmt: skip
         self.steady = Steady(self._runs)
@@ -92,12 +93,12 @@ class Maps:
     def view(self):
         """The map, the run at the bead with the inputs, and what is below; one below the other if there is little
         room."""
-        above = [self.head, pane(self.map.figure),
+        above = [self.head, self.map.drawing,
                  flow(self.stop, self.closer, self.whole, self.bar, margin=(4, 0)), self.wording,
                  words(note(say("maps.hint")))]  # fmt: skip
         below = [self.worst, *self.steady.view, words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)),
                  flow(*self.files), self.python]  # fmt: skip
-        beside = [self.stage, self.run_says, pane(self.curve.figure),
+        beside = [self.stage, self.run_says, self.curve.drawing,
                  words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown,
                  self.key, self.disagree, *self.settings.view]  # fmt: skip
         return areas(ROOM, [ANSWER], above=above, run=beside, below=below)

@@ -13,9 +13,8 @@ from app.text import listed, say
 from app.widgets.plots import draw, on_pointer, plain, rule
 
 CLOCK = "map"  # of the run at the bead: the top in 3-D, and the curve that follows it
-DARK = "#1b2430"
-# The accent on the cells, which are the same in every look: as numbers, because the look exchanges its name.
-ON_MAP = f"rgb({', '.join(map(str, bytes.fromhex(ACCENT[1:])))})"
+# Colours on the cells, which are the same in every look: as numbers, because the look exchanges their names.
+DARK, ON_MAP = (f"rgb({', '.join(map(str, bytes.fromhex(colour[1:])))})" for colour in (INK, ACCENT))
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip
 LEAST_AREA, LEAST_ROOM = 0.06, 0.05  # of the map's area and width: an end with less room is named in the key only
@@ -24,9 +23,9 @@ WIDE = 4.0  # a name needs this much more room to the sides than above and below
 
 
 class MapFigure:
-    """The figure; show() fills it. go: called with a place and whether it is that of a clicked cell."""
+    """The figure; show() fills it. hand: where the browser puts the bead, whether on a clicked cell, or a box."""
 
-    def __init__(self, go):
+    def __init__(self):
         self.figure = fig = plain(say("maps.label"), 440, name="maps", x_range=(0, 1), y_range=(0, 1),
                                   min_border_left=44)  # fmt: skip
         fig.grid.visible = False
@@ -59,7 +58,6 @@ class MapFigure:
         on_pointer(fig, call("pullBead", fig=fig, hand=self.hand, bead=self.bead, box=box))
         fig.js_on_change("inner_width", call("keepFinger", fig=fig, bead=self.bead, hand=self.hand))
         fig.js_on_change("inner_width", call("moveBead", fig=fig, hand=self.hand, bead=self.bead, map=self.fine))
-        self.hand.on_change("data", lambda attr, old, new: go(new))
 
     def begin(self, request):
         """Clears the figure for another map."""

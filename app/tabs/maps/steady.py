@@ -16,8 +16,9 @@ from app.model.runs import MAPS, WORK, Run, Stopped
 from app.tabs.maps.words import with_unit
 from app.text import error_text, listed, say
 from app.widgets.cards import Hidden, alert, note, words
+from app.widgets.drawing import drawn
 from app.widgets.failure import ended
-from app.widgets.plots import draw, pane, plain
+from app.widgets.plots import draw, plain
 from tippe_core import TopError
 
 COLOURS = {"upright": ACCENT, "tumbling": ends.COLOUR["stem"], "inverted": "#9b2d20"}
@@ -28,17 +29,15 @@ table { border-collapse: collapse; margin: 4px 0 8px } th, td { padding: 2px 16p
   font-weight: 400; vertical-align: baseline } td { font-variant-numeric: tabular-nums }
 th { color: var(--faint) }
 """
+SIDE_BY_SIDE = ".figures { display: flex; flex-flow: row wrap } .one { flex: 1 1 240px; min-width: 0 }"
 SHADES = (ends.COLOUR["stem"], None)  # of the points after the first and the second time
 
 
-class Steady:
-    """view: its parts. show() computes the results for a place of a map in a thread; the newest request counts."""
+class Bends:
+    """The final tilt over the spin."""
 
-    def __init__(self, runs):
-        self._runs, self._key, self._drawn = runs, None, False
-        self.title, self.says, self.key, self.rates_title = words(), words(), words(), words()
-        self.laws, self.powers = words(style=TABLE), words(style=TABLE)
-        self.bends = fig = _figure("bends", 230, (0, 184))
+    def __init__(self):
+        self.figure = fig = _figure("bends", 230, (0, 184))
         fig.yaxis.ticker = [0, 45, 90, 135, 180]
         self.lines = ColumnDataSource({"xs": [], "ys": [], "dash": []})
         self.dots = [ColumnDataSource({"x": [], "y": []}) for _ in SHADES]
@@ -53,36 +52,86 @@ class Steady:
             draw(fig, Line, "x", "y", source=source, line_color=ACCENT, line_width=1, line_alpha=0.6)
             draw(fig, Scatter, "x", "y", source=source, marker=marker, size=7, fill_color=None, line_color=ACCENT)
         draw(fig, Line, "x", "y", source=self.here, line_color=ACCENT, line_width=1.5)
-        self.pair, self.branches, self._small = (), {}, None  # the figures of growth and turning, once they are shown
-        self.deep = Hidden(self._deep)
 
     @property
-    def view(self):
-        return [self.title, pane(self.bends), self.key, self.says, self.deep]
+    def sources(self):
+        return self.lines, *self.dots, *self.sweeps, self.life
 
-    def _deep(self):
-        """What is open at the level Research: the rates, and the tables of scaling."""
-        self.pair = grow, turn = _figure("growth", 170), _figure("turning", 170)
+    def show(self, found):
+        """Draws a Bifurcation."""
+        self.figure.x_range.update(start=float(found.spin[0]), end=float(found.spin[-1]))
+        self.lines.data = {"xs": [line.spin for line in found.lines], "ys": [line.theta for line in found.lines],
+                           "dash": [DASHES[line.stable] for line in found.lines]}  # fmt: skip
+        for source, theta in zip(self.dots, found.theta, strict=True):
+            source.data = {"x": found.spin, "y": theta}
+        for source, theta in zip(self.sweeps, (found.up, found.down), strict=True):
+            source.data = {"x": found.swept, "y": theta}
+        inside = found.life.spin >= found.spin[0]
+        self.life.data = {"x": np.where(inside, found.life.spin, np.nan), "y": found.life.theta}
+
+
+class Rates:
+    """How fast small deviations grow and turn, over the spin."""
+
+    def __init__(self):
+        self.figures = grow, turn = _figure("growth", 170), _figure("turning", 170)
+        self.branches = {}
         for name, colour in COLOURS.items():
             line, runs = ColumnDataSource({"x": [], "growth": [], "turning": []}), ColumnDataSource({"x": [], "y": []})
             draw(grow, Line, "x", "growth", source=line, line_color=colour, line_width=2)
             draw(turn, Line, "x", "turning", source=line, line_color=colour, line_width=2)
             draw(grow, Scatter, "x", "y", source=runs, size=6, fill_color=colour, line_color=INK)
             self.branches[name] = line, runs
-        for fig in self.pair:
-            fig.x_range.update(start=self.bends.x_range.start, end=self.bends.x_range.end)
+
+    @property
+    def sources(self):
+        return sum(self.branches.values(), ())
+
+    def show(self, branches):
+        for branch in branches:
+            line, runs = self.branches[branch.name]
+            line.data = {"x": branch.spin, "growth": branch.growth, "turning": branch.turning / (2 * np.pi)}
+            runs.data = {"x": branch.run_spin, "y": branch.run_growth}
+            for fig in self.figures:
+                fig.x_range.update(start=float(branch.spin[0]), end=float(branch.spin[-1]))
+        of_figures = ([(b.growth, b.run_growth) for b in branches], [(b.turning / (2 * np.pi),) for b in branches])
+        for fig, rows in zip(self.figures, of_figures, strict=True):
+            seen = np.concatenate([np.zeros(1), *(np.ravel(row) for rows_ in rows for row in rows_)])
+            seen = seen[np.isfinite(seen)]
+            room = 0.06 * (np.ptp(seen) or 1.0)
+            fig.y_range.update(start=float(seen.min() - room), end=float(seen.max() + room))
+
+
+class Steady:
+    """view: its parts. show() computes the results for a place of a map in a thread; the newest request counts."""
+
+    def __init__(self, runs):
+        self._runs, self._key, self._drawn = runs, None, False
+        self.title, self.says, self.key, self.rates_title = words(), words(), words(), words()
+        self.laws, self.powers = words(style=TABLE), words(style=TABLE)
+        self.bends = drawn(Bends)
+        self.pair, self._small = None, None  # the figures of growth and turning, once they are shown
+        self.deep = Hidden(self._deep)
+
+    @property
+    def view(self):
+        return [self.title, self.bends.drawing, self.key, self.says, self.deep]
+
+    def _deep(self):
+        """What is open at the level Research: the rates, and the tables of scaling."""
+        self.pair, spins = drawn(Rates, stylesheets=[SIDE_BY_SIDE]), self.bends.figure.x_range
+        for fig in self.pair.figures:
+            fig.x_range.update(start=spins.start, end=spins.end)
         self._draw_rates()
-        row = pn.Row(*(pane(fig, **{"flex": "1 1 240px", "min-width": "0"}) for fig in self.pair), margin=0,
-                     styles={"display": "flex", "flex-flow": "row wrap"}, sizing_mode="stretch_width")  # fmt: skip
         named = listed("maps.branches")
         key = "".join(f'<span style="color: {OF_KEY.get(colour, colour)}">■</span> {named[name]} &emsp; '
                       for name, colour in COLOURS.items())  # fmt: skip
-        return [self.rates_title, words(note(key)), row, self.laws, self.powers]
+        return [self.rates_title, words(note(key)), self.pair.drawing, self.laws, self.powers]
 
     def show(self, request, place):
         """Computes and draws the results for the bead at a place of a Map."""
         x = request.values_at(*place)
-        self.here.data = {"x": [x["spin"]] * 2, "y": [0.0, 184.0]}
+        self.bends.here.data = {"x": [x["spin"]] * 2, "y": [0.0, 184.0]}
         moved = {name: value for name, value in x.items() if name != "spin"}
         key = (request.body, request.own, request.law, request.seconds, request.across, request.up,
                request.across_range, request.up_range, *moved.values(), round(x["spin"], 1))  # fmt: skip
@@ -91,7 +140,7 @@ class Steady:
         self._key = key
         if not self._drawn:  # else the figures still show the previous place
             self.title.object = _title(x)
-            for fig in (self.bends, *self.pair):
+            for fig in (self.bends.figure, *(self.pair.figures if self.pair else ())):
                 fig.x_range.update(**dict(zip(("start", "end"), spins_of(request), strict=True)))
         self.says.object = note(say("maps.steady.waits"))
         wanted = bifurcation, request, *place
@@ -118,7 +167,7 @@ class Steady:
         self._small = small
         with pn.io.hold():
             self._drawn, self.title.object = True, _title(x)
-            self._draw(found)
+            self.bends.show(found)
             self._draw_rates()
             self.says.object = of_life(found)
             first, second = found.times
@@ -130,38 +179,13 @@ class Steady:
         self._drawn, self._small = False, None
         for wording in (self.rates_title, self.key, self.laws, self.powers):
             wording.object = ""
-        for source in (self.lines, *self.dots, *self.sweeps, self.life, *sum(self.branches.values(), ())):
+        for source in (*self.bends.sources, *(self.pair.sources if self.pair else ())):
             source.data = {name: [] for name in source.data}
 
-    def _draw(self, found):
-        self.bends.x_range.update(start=float(found.spin[0]), end=float(found.spin[-1]))
-        self.lines.data = {"xs": [line.spin for line in found.lines], "ys": [line.theta for line in found.lines],
-                           "dash": [DASHES[line.stable] for line in found.lines]}  # fmt: skip
-        for source, theta in zip(self.dots, found.theta, strict=True):
-            source.data = {"x": found.spin, "y": theta}
-        for source, theta in zip(self.sweeps, (found.up, found.down), strict=True):
-            source.data = {"x": found.swept, "y": theta}
-        inside = found.life.spin >= found.spin[0]
-        self.life.data = {"x": np.where(inside, found.life.spin, np.nan), "y": found.life.theta}
-
     def _draw_rates(self):
-        small = self._small
-        if not self.pair or small is None:
-            return
-        self.rates_title.object = f"<h2>{say('maps.steady.rates')}</h2>"
-        for branch in small.branches:
-            line, runs = self.branches[branch.name]
-            line.data = {"x": branch.spin, "growth": branch.growth, "turning": branch.turning / (2 * np.pi)}
-            runs.data = {"x": branch.run_spin, "y": branch.run_growth}
-            for fig in self.pair:
-                fig.x_range.update(start=float(branch.spin[0]), end=float(branch.spin[-1]))
-        of_figures = ([(b.growth, b.run_growth) for b in small.branches],
-                      [(b.turning / (2 * np.pi),) for b in small.branches])  # fmt: skip
-        for fig, rows in zip(self.pair, of_figures, strict=True):
-            seen = np.concatenate([np.zeros(1), *(np.ravel(row) for rows_ in rows for row in rows_)])
-            seen = seen[np.isfinite(seen)]
-            room = 0.06 * (np.ptp(seen) or 1.0)
-            fig.y_range.update(start=float(seen.min() - room), end=float(seen.max() + room))
+        if self.pair and self._small is not None:
+            self.rates_title.object = f"<h2>{say('maps.steady.rates')}</h2>"
+            self.pair.show(self._small.branches)
 
 
 def _title(x):

@@ -1,4 +1,4 @@
-// Used by all figures. Their models are not synced, so playing sends nothing to the server.
+// Used by all figures.
 import { elementOf, pressNever } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
 import { dress } from "../parts.js";
@@ -20,10 +20,10 @@ export function moveLines({ spans, clock = LAB, path, range }) {
   if (isFollowed(spans[0])) return;
   const move = ({ t }) => {
     const now = t * (path?.tags[0] ?? 1);
-    for (const span of spans) span.setv({ location: now }, { sync: false });
+    for (const span of spans) span.setv({ location: now });
     if (!range) return;
     const { start, end } = range, page = end - start, turned = page * Math.floor(now / page);
-    if (now < start || now > end) range.setv({ start: turned, end: turned + page }, { sync: false });
+    if (now < start || now > end) range.setv({ start: turned, end: turned + page });
   };
   followClock(move, clock);
   move({ t: timeOf(clock) });

@@ -13,7 +13,7 @@ const WAIT = 80; // ms between two positions that are sent while the pointer mov
 // was last sent.
 /** @typedef {{ x: number, y: number, sx: number, sy: number }} Corner */
 /** @typedef {{ finger: boolean, held: boolean, from: Corner | null, sent: number }} Hand */
-/** @typedef {{ setv(values: object, options: object): void }} Settable */
+/** @typedef {{ setv(values: object): void }} Settable */
 /** @type {WeakMap<object, Hand>} */
 const hands = new WeakMap();
 
@@ -39,7 +39,7 @@ export function pullBead({ fig, hand, bead, box }, event) {
   if (!clicked && own.from) return drawBox(own, hand, box, name, { ...place, sx, sy });
   if (!clicked && !own.held) return;
   const at = { x: [place.x], y: [place.y] };
-  bead.setv({ data: at }, { sync: false });
+  bead.setv({ data: at });
   const done = clicked || name === "panend", now = performance.now();
   if (done) own.held = false;
   if (!done && now - own.sent < WAIT) return;
@@ -53,7 +53,7 @@ function drawBox(own, hand, box, name, to) {
   const { from } = own, done = name === "panend";
   if (!from) return;
   const [left, right] = [from.x, to.x].sort((a, b) => a - b), [bottom, top] = [from.y, to.y].sort((a, b) => a - b);
-  box.setv({ left, right, bottom, top, visible: !done }, { sync: false });
+  box.setv({ left, right, bottom, top, visible: !done });
   if (!done) return;
   own.from = null;
   if (Math.min(Math.abs(to.sx - from.sx), Math.abs(to.sy - from.sy)) < LEAST) return;
@@ -86,7 +86,7 @@ export function moveBead({ fig, hand, bead, map }) {
     event.preventDefault();
     event.stopPropagation();
     const [x, y] = keyed(event.key, event.shiftKey, [bead.data.x[0], bead.data.y[0]], fig, [across, up]), at = { x: [x], y: [y] };
-    bead.setv({ data: at }, { sync: false });
+    bead.setv({ data: at });
     hand.data = { ...at, cell: [0] };
   };
 }

@@ -18,7 +18,7 @@ export function pullFilm({ fig, hand, starts, curves }, event) {
   const pull = pulls.get(hand);
   if (!pull) return seek(x, isDown(event), CLOCK);
   const at = Math.min(Math.max(x, start), end);
-  for (const line of starts) line.setv({ location: at }, { sync: false });
+  for (const line of starts) line.setv({ location: at });
   curves.forEach((source, i) => {
     pull.curves[i].forEach((t, row) => (source.data.t[row] = t + at - pull.first));
     source.change.emit();

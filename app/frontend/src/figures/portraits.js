@@ -1,4 +1,4 @@
-// One nutation, the track, the force: a bead on a curve at the time of the clock, which can be dragged. Not synced.
+// One nutation, the track, the force: a bead on a curve at the time of the clock, which can be dragged.
 import { elementOf, scalesOf } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
 import { spotInTurn, timeAtPoint, valueAt } from "./curves.js";

@@ -1,9 +1,7 @@
-// A run: the top as a bead in its present well. Not synced.
+// A run: the top as a bead in its present well.
 import { rowBefore } from "../data.js";
 import { clamp, valueAt } from "./curves.js";
 import { followClock, isFollowed } from "./seeking.js";
-
-const quietly = (part, values) => part.setv(values, { sync: false });
 
 // The index of the well at a time, -1 for none, and the bead's theta, V and E there.
 /** @param {Record<"t" | "theta" | "V" | "E" | "well", Column>} path @param {number} now */
@@ -16,12 +14,12 @@ export function beadAt({ t, theta, V, E, well }, now) {
 }
 
 function showWell({ wells, steady, none, range }, which) {
-  quietly(none, { visible: which < 0 });
+  none.setv({ visible: which < 0 });
   const { alpha, low, high } = wells.data, { stable, well } = steady.data;
-  quietly(wells, { data: { ...wells.data, alpha: Array.from(alpha, (_, k) => (k === which ? 1 : 0)) } });
+  wells.setv({ data: { ...wells.data, alpha: Array.from(alpha, (_, k) => (k === which ? 1 : 0)) } });
   const present = Array.from(well, (k) => (k === which ? 1 : 0));
-  quietly(steady, { data: { ...steady.data, alpha: present, fill: present.map((on, k) => on * stable[k]) } });
-  if (which >= 0) quietly(range, { start: low[which], end: high[which] });
+  steady.setv({ data: { ...steady.data, alpha: present, fill: present.map((on, k) => on * stable[k]) } });
+  if (which >= 0) range.setv({ start: low[which], end: high[which] });
 }
 
 /** @param {Record<"path" | "bead" | "wells" | "steady", Source> & Record<"none" | "range", BokehModel> & { clock: string }} given */
@@ -32,9 +30,9 @@ export function followWell(given) {
   /** @type {number | null} */
   let shown = null; // the index of a well
   const placeBead = () => {
-    if (path.data.t.length < 2) return quietly(none, { visible: false });
+    if (path.data.t.length < 2) return none.setv({ visible: false });
     const { which, theta, V, E } = beadAt(path.data, now);
-    quietly(bead, { data: which < 0 ? { theta: [], V: [], E: [] } : { theta: [theta], V: [V], E: [E] } });
+    bead.setv({ data: which < 0 ? { theta: [], V: [], E: [] } : { theta: [theta], V: [V], E: [E] } });
     if (which !== shown) showWell(given, which);
     shown = which;
   };

@@ -1,8 +1,7 @@
 // The look of the page: light or dark, and large for a projector. What is HTML follows through CSS variables; a
 // Bokeh figure is drawn on a canvas, so its colours and sizes are replaced here.
 import { colours, onDark } from "../colours.js";
-import { coalesce } from "../data.js";
-import { atEnd, lifeOf } from "../life.js";
+import { lifeOf } from "../life.js";
 import { tokensOf, wear } from "../tokens.js";
 
 const LARGER = 1.35;
@@ -25,20 +24,17 @@ const ownOf = ({ attributes }) => Object.entries(attributes).filter(([property])
 /** @param {Pick<Rendering<LookModel>, "model">} rendering */
 export function renderLook({ model }) {
   const { style } = document.documentElement, life = lifeOf({ model }), system = window.matchMedia("(prefers-color-scheme: dark)"), first = new WeakMap();
-  const documents = typeof Bokeh === "undefined" ? [] : Bokeh.documents; // none in a page without a server
-  const doc = documents.find((each) => each.get_model_by_id(model.id)) ?? documents[0];
-  let name = "light", seen = 0;
+  let name = "light";
   const dress = (part) => {
     if (!first.has(part)) first.set(part, ownOf(part));
     const tokens = tokensOf(name), ink = (value) => tokens[INKS[value.toLowerCase()]] ?? (name.startsWith("dark") ? DARK.get(value.toLowerCase()) : undefined) ?? value;
     const size = (value) => (model.large ? value.replace(/^[\d.]+(?=px)/, (now) => String(LARGER * now)) : value);
     const wanted = first.get(part).map(([property, value]) => [property, exchange(value, isColour(property) ? ink : size)]);
-    if (wanted.length) part.setv(Object.fromEntries(wanted), { sync: false });
+    if (wanted.length) part.setv(Object.fromEntries(wanted));
   };
   const dressAll = () => {
-    const all = [...(doc?.all_models ?? [])];
-    seen = all.length;
-    for (const part of all) if (!part.type?.startsWith("panel.") && part.attributes) dress(part);
+    const documents = typeof Bokeh === "undefined" ? [] : Bokeh.documents; // none in a page without a server
+    for (const part of documents.flatMap((doc) => [...doc.all_models])) if (!part.type?.startsWith("panel.") && part.attributes) dress(part);
   };
   const isDark = () => model.dark ?? system.matches; // as a person chose, otherwise as the operating system has it
   const update = () => {
@@ -51,10 +47,7 @@ export function renderLook({ model }) {
     dressAll();
   };
   document.documentElement.lang = model.texts.language;
-  // new models come when a tab is first opened
-  const again = coalesce(dressAll, life), onChange = () => name !== "light" && doc.all_models.size !== seen && again();
-  doc?.on_change(onChange);
-  atEnd(life, () => doc?.remove_on_change(onChange));
+  window.addEventListener("tippe:figures", () => name !== "light" && dressAll(), { signal: life });
   for (const each of ["dark", "large"]) model.on(each, update);
   system.addEventListener("change", update, { signal: life });
   if (isDark() || model.large || system.matches) update();

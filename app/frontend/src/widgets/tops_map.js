@@ -125,7 +125,7 @@ export function renderTopsMap({ model, el }) {
   let size = { wide: 0, high: 0, type: 1 }, held = false;
   const draw = () => {
     const [width, height] = [place.clientWidth, place.clientHeight];
-    if (!width || !height) return;
+    if (!width || !height || !model.state.tops) return;
     size = { wide: width, high: height, type: parseFloat(getComputedStyle(place).getPropertyValue("--type")) || 1 };
     const focused = /** @type {ShadowRoot} */ (place.getRootNode()).activeElement, name = focused?.getAttribute("data-name"), ring = focused?.matches(".here");
     place.innerHTML = drawn(model, size);
