@@ -260,7 +260,9 @@ def test_the_workflows_do_what_the_tests_and_the_readme_do():
     assert {"run": ".ci/run"} in tests["all"]["steps"]
     assert [f"{python}.0" for python in tests["every"]["strategy"]["matrix"]["python"]] == list(PYTHONS)
     assert {*tests["every"]["strategy"]["matrix"]["system"]} == {"ubuntu-latest", "macos-latest", "windows-latest"}
-    assert {*release} == {"archives", "image"}
+    assert {name: job.get("needs") for name, job in release.items()} == {
+        "archives": None, "image": "archives", "index": "image", "page": "image"  # what fails publishes nothing
+    }  # fmt: skip
 
 
 def test_every_action_is_pinned_by_its_commit_and_says_which_version_that_is():
