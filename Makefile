@@ -94,9 +94,9 @@ proof: $(VENV)/test kernels
 validation: $(VENV)/test kernels
 	$(BIN)/python tests/validation.py
 
-docs: $(VENV)/docs
-	$(BIN)/sphinx-build -W -q docs docs/_build
-	@echo "docs/_build/index.html"
+docs: $(VENV)/docs kernels
+	$(BIN)/sphinx-build -W -q docs docs/_build/html
+	@echo "docs/_build/html/index.html"
 
 bench: $(VENV)/bench $(VENV)/test kernels browser
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/bench.py

@@ -10,16 +10,21 @@ from docutils import nodes
 project = "Tippe top explorer"
 author = copyright = "The tippe top explorer authors"
 release = metadata.version("tippe-top-explorer")
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "matplotlib.sphinxext.plot_directive"]
-exclude_patterns = ["_build"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "matplotlib.sphinxext.plot_directive"]
+exclude_patterns = ["_build", "upstream"]  # reports to other projects, for who changes app/borrowed.py
 html_theme = "furo"
 html_title = project
 html_math_renderer = "mathml"
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 2
+nb_execution_mode = "force"  # the notebooks are kept without their output
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120  # s, for each cell
 suppress_warnings = ["myst.xref_missing"]  # a page that is also read in the repository links beyond docs
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
+# Names that share a line stay together, and an attribute that is a property too has one entry in the index.
+napoleon_custom_sections = [("Parameters", "params_style"), ("Attributes", "params_style")]
 autodoc_default_options = {"members": True}
 plot_include_source = True
 plot_html_show_source_link = plot_html_show_formats = False
@@ -37,33 +42,31 @@ def mathml(display):
     return visit
 
 
-# The start of an entry in a docstring: names, with shapes, then a gap or, after the end of a sentence, a colon.
-ENTRY = re.compile(r"(\w+(?: \([^)]*\))?(?:, \w+(?: \([^)]*\))?)*)(:(?= )| {2,})(.*)")
-
-
 def as_written(app, what, name, obj, options, lines):
-    """Docstrings are plain text: nothing in them is markup, each entry is a paragraph, and what is otherwise indented
-    keeps its lines. A constant's docstring is that of its type, so docs/api.md describes it instead."""
-    if what == "data":
-        lines.clear()
-    found, literal, entry = [""], False, False
-    for line in lines:
-        plain, start = escaped(line.strip()), ENTRY.match(line)
-        if not plain:
+    """Nothing in a docstring is markup but the names of its sections, which napoleon reads after this; before the first
+    section, what is indented keeps its lines. A constant's docstring is that of its type, so docs/api.md describes it
+    instead."""
+    found, literal, prose = [], False, True
+    for line in [] if what == "data" else lines:
+        prose = prose and not re.fullmatch("-+", line)
+        indented = prose and line.startswith(" ")
+        if indented and not literal:
+            found += ["", "::", ""]
+        elif literal and line and not indented:
             found.append("")
-            entry = False
-        elif line.startswith(" ") and entry:
-            found[-1] += " " + plain
-        elif line.startswith(" "):
-            found += ["    " + line] if literal else ["", "::", "", "    " + line]
-            literal = True
-        else:
-            entry = bool(start) and (start[2] != ":" or not found[-1] or found[-1].endswith((".", ";", ":")))
-            if entry:
-                plain = f"**{escaped(start[1])}{start[2].strip()}** {escaped(start[3].strip())}"
-            found += ["", plain] if literal or entry else [plain]
-            literal = False
+        literal = indented or (literal and not line)
+        found.append("    " + line if indented else escaped(line))
     lines[:] = found
+    if what == "property":
+        written[name] = found
+
+
+written = {}
+
+
+def whole(app, what, name, obj, options, lines):
+    """Napoleon takes what precedes a colon in a property's docstring for its type."""
+    lines[:] = written.get(name, lines)
 
 
 def skipped(app, what, name, obj, skip, options):
@@ -72,10 +75,15 @@ def skipped(app, what, name, obj, skip, options):
 
 
 def escaped(text):
-    return re.sub(r"([\\*`|_])", r"\\\1", text)
+    """With the code in it as code, and without the enumerations that equation numbers would be."""
+    words = text.split("`")
+    words[1::2] = [f"``{code}``" for code in words[1::2]]
+    words[::2] = [re.sub(r"([\\*|_])", r"\\\1", plain) for plain in words[::2]]
+    return re.sub(r"^( *)(?=\(\w+\))", r"\1\\", "".join(words))
 
 
 def setup(app):
     app.add_html_math_renderer("mathml", (mathml("inline"), None), (mathml("block"), None))
-    app.connect("autodoc-process-docstring", as_written)
+    app.connect("autodoc-process-docstring", as_written, priority=400)  # before napoleon, which has 500
+    app.connect("autodoc-process-docstring", whole, priority=600)
     app.connect("autodoc-skip-member", skipped)

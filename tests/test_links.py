@@ -30,8 +30,10 @@ def test_a_link_opens_what_was_met_there(link):
 
 def compared(what):
     """What is compared: of a link whose start or body is impossible, all but the default start in their place, which
-    is now that of the arrival on every page."""
+    is now that of the arrival on every page; of one in an unknown language, all but the list of known ones."""
     said = what.get("said", "")
+    if "lang must be one of" in said:
+        return what | {"said": said.partition("one of")[0]}
     if "not possible" in said or "body " in said or "this link has" in said.lower():
         return {name: what[name] for name in ("language", "said", "room", "level") if name in what}
     return what

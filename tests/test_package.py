@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tarfile
 import tomllib
+import zipfile
 from functools import partial
 from pathlib import Path
 
@@ -89,7 +90,8 @@ def test_the_image_and_the_tests_are_installed_from_the_lock():
 
 @pytest.fixture(scope="module")
 def archives(tmp_path_factory):
-    """The folder with the wheel and the source archive, made from a copy of what git tracks and the bundle."""
+    """The folder with the wheel and the source archive, made from a copy of what git tracks and the bundle; those of
+    the core alone are in its folder core."""
     if not (ROOT / ".git").exists() or not shutil.which("git"):
         pytest.skip("copies what git has")
     copy, made = tmp_path_factory.mktemp("copy"), tmp_path_factory.mktemp("made")
@@ -99,7 +101,9 @@ def archives(tmp_path_factory):
             (copy / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / path, copy / path)
     shutil.copytree(ROOT / "app/static", copy / "app/static")
-    subprocess.run([sys.executable, "-m", "hatchling", "build", "-d", made], cwd=copy, check=True, capture_output=True)
+    for source, folder in ((copy, made), (copy / "deploy/core", made / "core")):
+        build = [sys.executable, "-m", "hatchling", "build", "-d", folder]
+        subprocess.run(build, cwd=source, check=True, capture_output=True)
     return made
 
 
@@ -116,9 +120,9 @@ def unpacked(archives, tmp_path_factory):
 @pytest.mark.served
 def test_the_archives_are_as_an_index_wants_them(archives):
     pytest.importorskip("twine", reason="twine is not installed: locks/test.txt has it")
-    done = subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *archives.iterdir()],
-                          capture_output=True, text=True)  # fmt: skip
-    assert done.returncode == 0 and done.stdout.count("PASSED") == 2, done.stdout
+    made = [*archives.rglob("*.whl"), *archives.rglob("*.tar.gz")]
+    done = subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *made], capture_output=True, text=True)
+    assert done.returncode == 0 and done.stdout.count("PASSED") == 4, done.stdout
 
 
 @pytest.mark.served
@@ -159,6 +163,19 @@ def installed(folder, *whats):
             pytest.skip("the index of packages cannot be reached")
         assert done.returncode == 0, done.stderr
     return inside
+
+
+@pytest.mark.served
+def test_the_source_archive_of_the_core_makes_the_same_wheel(archives, tmp_path):
+    """In a clone its sources are elsewhere than in the archive."""
+    with tarfile.open(next((archives / "core").glob("*.tar.gz"))) as archive:
+        archive.extractall(tmp_path, filter="data")
+    [source] = tmp_path.iterdir()
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", tmp_path]
+    subprocess.run(build, cwd=source, check=True, capture_output=True)
+    wheels = (zipfile.ZipFile(next(folder.glob("*.whl"))) for folder in (archives / "core", tmp_path))
+    made, again = ({name for name in wheel.namelist() if name.startswith("tippe_core/")} for wheel in wheels)
+    assert made == again and {"tippe_core/LICENSE", "tippe_core/motion/sliding.py"} < made
 
 
 @pytest.mark.served
@@ -243,7 +260,9 @@ def test_the_workflows_do_what_the_tests_and_the_readme_do():
     assert {"run": ".ci/run"} in tests["all"]["steps"]
     assert [f"{python}.0" for python in tests["every"]["strategy"]["matrix"]["python"]] == list(PYTHONS)
     assert {*tests["every"]["strategy"]["matrix"]["system"]} == {"ubuntu-latest", "macos-latest", "windows-latest"}
-    assert {*release} == {"archives", "image"}
+    assert {name: job.get("needs") for name, job in release.items()} == {
+        "archives": None, "image": "archives", "index": "image", "page": "image"  # what fails publishes nothing
+    }  # fmt: skip
 
 
 def test_every_action_is_pinned_by_its_commit_and_says_which_version_that_is():
