@@ -13,7 +13,6 @@ import panel as pn
 import pytest
 import visitors
 from inside import inside
-from panel.pane.plot import Bokeh
 from panel.viewable import Viewable
 from serving import until
 from wire import run
@@ -21,6 +20,7 @@ from wire import run
 from app.page.session import Session
 from app.text import say
 from app.widgets.download import Download
+from app.widgets.drawing import Drawing
 
 pytestmark = pytest.mark.served
 
@@ -173,8 +173,8 @@ def once(monkeypatch, owner, name, where=lambda *arguments, **named: True):
     return left
 
 
-def is_map(pane, *_, **__):
-    return getattr(getattr(pane, "object", None), "name", "") == "map"
+def is_map(part, *_, **__):
+    return isinstance(part, Drawing)  # the only one of Families
 
 
 def has_map(part, root=None, changed=None, *_, **__):
@@ -186,7 +186,7 @@ async def open_a_room_that_fails(here, monkeypatch):
     """Where it is made, where Panel's hooks see it, and where Panel makes its models; each time another room opens."""
     # a page keeps the methods that it finds when it comes
     failures = [once(monkeypatch, Session, "families"), once(monkeypatch, Viewable, "_preprocess", has_map),
-                once(monkeypatch, Bokeh, "_get_model", is_map)]  # fmt: skip
+                once(monkeypatch, Drawing, "_get_model")]  # fmt: skip
     page = await visitors.come(here.url + "?tab=lab")
 
     def sheets():

@@ -222,7 +222,7 @@ def test_a_top_that_spins_the_other_way_has_as_many_pictures():
 
 
 def test_only_an_area_with_room_for_its_name_is_named():
-    level, figure = recall(Map()), MapFigure(lambda data: None)
+    level, figure = recall(Map()), MapFigure()
     for side, named in ((10, False), (16, True)):  # of 48 cells: 4 and 11 % of the map
         ends = np.full(level.end.shape, "stem", level.end.dtype)
         ends[10 : 10 + side, 10 : 10 + side] = "leaning"

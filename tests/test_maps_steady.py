@@ -104,7 +104,7 @@ def test_a_place_is_said_with_its_units():
 
 def test_a_word_on_the_map_stands_on_its_own_colour_and_is_not_cut_off():
     for asked in SHIPPED:
-        level, figure = recall(asked), MapFigure(lambda data: None)
+        level, figure = recall(asked), MapFigure()
         figure.begin(asked)
         figure.show(level, "end")
         shown = [word for word in figure.words if word.visible]

@@ -94,7 +94,8 @@ def test_where_no_column_is_known_the_page_asks_at_its_top(language):
                 "de": "Keine Spalte wurde erkannt. Geben Sie an, was jede ist:",
                 "es": "No se ha reconocido ninguna columna. Di qué es cada una:"}[language]  # fmt: skip
         assert f'role="alert">{says}<' in tab.wording.object
-        over = next(part for part in tab.view.objects if "over" in part.css_classes)
+        [whole] = tab.view.views
+        over = next(part for part in whole.objects if "over" in part.css_classes)
         assert over.objects[:2] == [tab.wording, tab.over] and tab.over.objects == [tab.columns.view]
         assert len(tab.columns.view.objects[0].views) == 4  # three columns, and the frame rate
 

@@ -114,7 +114,8 @@ class Visitor:
             if re.fullmatch(r"Form\d+", name):
                 tree = json.loads(attributes["parts"])["tree"]
                 while tree:
-                    yield (id, tree[0]["at"]), tree[0]["kind"]
+                    if tree[0]["kind"] != "other":  # a model
+                        yield (id, tree[0]["at"]), tree[0]["kind"]
                     tree = tree[0].get("inside", []) + tree[1:]
 
     def shown(self, id):

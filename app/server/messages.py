@@ -100,7 +100,7 @@ def _is_of_form(value, of):
     if not row(COUNT, COUNT, SHORT, ANYTHING).fits(value, of):
         return False
     _, at, name, new = value
-    kind = {part["at"]: part["kind"] for part in _parts_of(json.loads(of.parts)["tree"])}.get(at)
+    kind = {part.get("at"): part["kind"] for part in _parts_of(json.loads(of.parts)["tree"])}.get(at)
     allowed = CHANGES.get(kind, {}).get(name)
     return allowed is not None and allowed.fits(new, SimpleNamespace(**json.loads(of.state)["of"][at]))
 

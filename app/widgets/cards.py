@@ -2,7 +2,7 @@
 
 import panel as pn
 
-from app.widgets.form import joined
+from app.widgets.form import Form
 from app.widgets.typeset import typeset
 
 # The stage at the right of the other cards. On a narrow page both give their cards to one column.
@@ -66,8 +66,8 @@ def column(*parts, **options):
 
 def areas(sheet, inside=(), /, **content):
     """Parts that a style sheet arranges by their names, which are their classes; inside: sheets of each."""
-    parts = [column(*joined(part), css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
-    return column(*parts, stylesheets=[sheet])
+    parts = [column(*part, css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
+    return Form(column(*parts, stylesheets=[sheet]))
 
 
 def alert(text):
@@ -98,7 +98,7 @@ def swatch(colour, text, style="solid"):
 def card(title, *content):
     """A part of a room, with its title."""
     styles = {"height": "max-content", "box-sizing": "border-box", "overflow": "hidden"}
-    return column(*joined([words(f"<h2>{title}</h2>"), *content]), styles=styles)
+    return column(words(f"<h2>{title}</h2>"), *content, styles=styles)
 
 
 def flow(*content, margin=(6, 0)):
@@ -109,22 +109,29 @@ def flow(*content, margin=(6, 0)):
 def grid(*cards):
     """Cards side by side where there is room."""
     columns = "repeat(auto-fit, minmax(min(100%, 480px), 1fr))"
-    return column(*cards, styles=ROOM | {"display": "grid", "grid-template-columns": columns})
+    return Form(column(*cards, styles=ROOM | {"display": "grid", "grid-template-columns": columns}))
 
 
-class Hidden(pn.Column):
+class Filled(pn.Column):
+    """A column whose content changes."""
+
+    def __init__(self, *parts, **options):
+        super().__init__(*parts, **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+class Hidden(Filled):
     """A column whose content is created when it is first shown: parts that nobody sees cost as much as others. make:
     a function that returns a list of them."""
 
     def __init__(self, make):
-        super().__init__(sizing_mode="stretch_width", margin=0, visible=False)
+        super().__init__(visible=False)
         self._make = make
         self.param.watch(self._fill, "visible")
 
     def _fill(self, event):
         make, self._make = self._make, None
         if make:
-            self.objects = joined(make())
+            self.objects = [Form(*make())]
 
 
 def first(made):
@@ -137,7 +144,7 @@ def staged(stage, others):
     """The cards of the stage and the other cards: side by side if there is room, the stage then 57 % wide and in sight
     while the others scroll; else in one column, in the `order` of each card, those of the stage after the others."""
     on_the_right = column(*stage, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)])
-    return column(column(*others, stylesheets=[SIDE]), on_the_right, stylesheets=[STAGED])
+    return Form(column(column(*others, stylesheets=[SIDE]), on_the_right, stylesheets=[STAGED]))
 
 
 def later(made, place):
@@ -150,4 +157,4 @@ def flexible(*cards):
     """A row of (card, its CSS flex: growth, shrinkage and least width), which wraps."""
     for each, flex in cards:
         each.styles = each.styles | {"flex": flex, "min-width": "0"}
-    return column(*(each for each, _ in cards), styles=ROOM | WRAPS | {"align-items": "start"})
+    return Form(column(*(each for each, _ in cards), styles=ROOM | WRAPS | {"align-items": "start"}))

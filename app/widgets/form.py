@@ -1,5 +1,5 @@
-"""Words, and what a hand sets or presses beside them, as one part of the page. Each by itself would be two or three
-models of Bokeh, and a room has fifty of them: all to be created, counted and sent."""
+"""Columns of words, and what a hand sets or presses beside them, as one part of the page. Each by itself would be two
+or three models of Bokeh, and a room has eighty of them: all to be created, counted and sent."""
 
 import json
 from functools import partial
@@ -17,37 +17,43 @@ FILE = "file"  # of a Download: sent once, not with the state of all
 
 
 class Form(Bundled):
-    """views: words(), columns and rows of them, and PARTS, which hear of hands and change as they would alone. Their
-    columns keep what they have."""
+    """views: columns, which keep what they have; words() and PARTS, which hear of hands and change as they would alone;
+    and others, which are parts of the page as before, but stand where they are."""
 
-    parts = param.String(default="{}", constant=True, doc="JSON. tree: kind (of a part, or words or column), at (its "
-                         "number), style, sends (names), sheet (of words), inside; sheets: CSS")  # fmt: skip
+    parts = param.String(default="{}", constant=True, doc="JSON. tree: kind (of a part, or words, column or other), at "
+                         "(its number), style, sends (names), sheet (of its own), inside; sheets: CSS")  # fmt: skip
+    others = pn.viewable.Children(default=[], constant=True)
     state = param.String(default="{}", doc="JSON. heard: how many messages; of: what each part shows, by its number")
     sent = param.List(default=[0, 0, "", None], doc="[how many so far, number of a part, what of it, its new value]")
     file = param.List(default=[], doc="[number of a Download, its newest file]")
 
     def __init__(self, *views, **params):
-        self.views, self._parts, self._sheets, self._heard = views, [], {}, 0
-        tree = [self._tree(view) for view in views]
+        self.views, self._parts, self._sheets, self._heard, others = views, [], {}, 0, []
+        tree = [self._tree(view, others) for view in views]
         self._of = [shown(part) for part in self._parts]
         super().__init__(parts=json.dumps({"tree": tree, "sheets": [*self._sheets]}), state=self._state(),
-                         **({"sizing_mode": "stretch_width", "margin": 0} | params))  # fmt: skip
+                         others=others, **({"sizing_mode": "stretch_width", "margin": 0} | params))  # fmt: skip
         for at, part in enumerate(self._parts):
             files = [FILE] if isinstance(part, Download) else []
             part.param.watch(partial(self._changed, at), [*self._of[at], *files])
         hear(self, sent=self._take)
 
     def select(self, selector=None):
-        return super().select(selector) + [found for view in self.views for found in view.select(selector)]
+        inside = (part for part in self._parts if type(part) is not pn.Column)
+        return super().select(selector) + [found for part in inside for found in part.select(selector)]
 
-    def _tree(self, view):
+    def _tree(self, view, others):
+        if not (type(view) is pn.Column or isinstance(view, (pn.pane.HTML, *PARTS))):
+            others.append(view)
+            return {"kind": "other"}
         found = {"at": len(self._parts), "style": style_of(view)}
         self._parts.append(view)
+        if view.stylesheets:
+            found["sheet"] = self._sheets.setdefault("".join(view.stylesheets), len(self._sheets))
         if isinstance(view, pn.Column):
-            return found | {"kind": "column", "inside": [self._tree(each) for each in view]}
+            return found | {"kind": "column", "inside": [self._tree(each, others) for each in view]}
         if isinstance(view, pn.pane.HTML):
-            sheet = "".join(view.stylesheets)
-            return found | {"kind": "words", "sheet": self._sheets.setdefault(sheet, len(self._sheets))}
+            return found | {"kind": "words"}
         return found | {"kind": type(view).__name__, "sends": [*view.SENDS]}
 
     def _state(self):
@@ -77,10 +83,11 @@ class Form(Bundled):
 
 def shown(part):
     """{name: value} of what a part shows."""
+    layout = {"visible": part.visible, "css_classes": part.css_classes}
     if isinstance(part, pn.pane.HTML):
-        return {"visible": part.visible, "object": part.object}
+        return layout | {"object": part.object}
     own = {} if isinstance(part, pn.Column) else values_of(part)
-    return {name: value for name, value in own.items() if name != FILE} | {"visible": part.visible}
+    return {name: value for name, value in own.items() if name != FILE} | layout
 
 
 def style_of(view):
@@ -91,28 +98,5 @@ def style_of(view):
         style["align-self"] = "flex-end" if view.align == "end" else "center"
     elif not (view.sizing_mode or "").startswith("stretch"):
         style["align-self"] = "flex-start"
-    if view.width:
-        style["width"] = f"{view.width}px"
+    style |= {name: f"{size}px" for name in ("width", "height") if (size := getattr(view, name))}
     return ";".join(f"{name}:{value}" for name, value in style.items())
-
-
-def fits(view):
-    """Whether a Form may have it: it has no look of its own, and no column that is empty, to be filled later."""
-    if view.css_classes or (view.stylesheets and not isinstance(view, pn.pane.HTML)):
-        return False
-    if type(view) is pn.Column:
-        return len(view) > 0 and all(map(fits, view))
-    return type(view) is pn.pane.HTML or isinstance(view, PARTS)
-
-
-def joined(views):
-    """The same views, but those that follow each other and fit as one Form."""
-    found, now = [], []
-    for view in (*views, None):
-        if view is not None and fits(view):
-            now.append(view)
-            continue
-        is_small = len(now) == 1 and type(now[0]) is not pn.Column
-        found += now if is_small or not now else [Form(*now)]
-        found, now = found + [view] * (view is not None), []
-    return found

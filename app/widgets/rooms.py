@@ -17,60 +17,20 @@ from app.widgets.failure import after, attempt
 from app.widgets.forms import Button
 
 AROUND = (24, 28)
-MOST = 60  # parts of the page that are created in one step; more steps cost more, because each one counts all models
-AWAY = 600.0  # s after which a room of more parts gives them back; what was entered in it stays
+AWAY = 600.0  # s after which a room gives its parts back; what was entered in it stays
 
 log = logging.getLogger("tippe")
-
-
-def size(view):
-    """How many parts a view has. (Panel's select() asks each of them for its parameters.)"""
-    return 1 + sum(map(size, getattr(view, "objects", None) or ()))
-
-
-def pieces(view, most):
-    """Takes the content out of a view of many parts, and returns how many parts each piece of it has, and a function
-    that puts it back."""
-    if not isinstance(view, pn.Column) or size(view) <= most:
-        return []
-    parts, view.objects = [*view.objects], []
-    found, begin = [], 0
-    while begin < len(parts):
-        end, count = begin + 1, size(parts[begin])
-        while end < len(parts) and (more := count + size(parts[end])) <= most:
-            end, count = end + 1, more
-        inside = pieces(parts[begin], most)
-
-        def put(begin=begin, end=end):
-            if list(view.objects) == parts[:begin]:  # it has not changed meanwhile
-                view.extend(parts[begin:end])
-
-        found += [(1 if inside else count, put), *inside]
-        begin = end
-    return found
-
-
-def taken_apart(view, most=MOST):
-    """Takes a view of many parts apart, and returns the steps in which it is put together again, of functions."""
-    steps, room = [], 0
-    for count, put in pieces(view, most):
-        if count > room:
-            steps.append([])
-            room = most
-        steps[-1].append(put)
-        room -= count
-    return steps
 
 
 class Place:
     """The place of a view. name: its name; make: a function that returns the view; add: RenderScheduler.now.
 
-    Views are created in turn among all pages of the server, in steps: the view, and then what the browser gets of it,
-    part by part. Between the steps, and after them, others are served."""
+    Views are created in turn among all pages of the server, in two steps: the view, and then what the browser gets of
+    it. Between the steps, and after them, others are served."""
 
     def __init__(self, name, make, add):
         self._make, self._add, self._view, self._requested = make, add, None, False
-        self._steps, self._stands = [], False  # what is still to be put, and whether something is there
+        self._waits, self._stands = False, False  # whether the view is to be shown, and whether it is
         self._left = None  # when the page looked elsewhere
         self._failed, self._turn, self._document = False, None, pn.state.curdoc
         self._says = words(self._waiting(), margin=AROUND)
@@ -107,8 +67,7 @@ class Place:
         after(AWAY, partial(self._give_back, self._left))
 
     def _give_back(self, left):
-        is_whole = self._stands and not self._steps and not self._failed
-        if is_whole and left == self._left and not self.column.visible and size(self._view) > MOST:
+        if self._stands and left == self._left and not self.column.visible:
             self.column.objects, self._requested, self._stands = [self._says], False, False
 
     def fill(self):
@@ -138,13 +97,13 @@ class Place:
             return
         start = time.monotonic()
         try:
-            if self._steps:
+            if self._waits:
                 self._add(partial(self._attempt, self._put))
             else:
                 with pn.io.hold():
                     self._attempt(self._create)
         finally:
-            end = turn.rest if self._steps and not self._failed else turn.done
+            end = turn.rest if self._waits and not self._failed else turn.done
             end(time.monotonic() - start)
 
     def _tell(self, before):
@@ -155,22 +114,13 @@ class Place:
 
     def _create(self):
         self._view_made()
-        self._steps = self._steps or taken_apart(self._view) or [[]]
+        self._waits = True
 
     def _put(self):
-        """Puts the next part, with all that goes with it: each change by itself would have all models counted."""
-        is_last = len(self._steps) == 1
+        """Shows the view, with all that goes with it: each change by itself would have all models counted."""
+        self._waits = False
         with self._document.models.freeze():
-            if not self._stands and not is_last:
-                self._begin()
-            for put in self._steps[0]:
-                put()
-            if is_last:
-                self._end()
-        del self._steps[0]
-
-    def _begin(self):
-        self.column.objects, self._stands = [self._view, self._says], True
+            self._end()
 
     def _end(self):
         self.column.objects, self._stands = [self._view], True

@@ -168,6 +168,7 @@ interface FormModel extends Model {
   state: string;
   sent: [count: number, at: number, name: string, value: any];
   file: [at: number, count: number, base64: string, name: string] | [];
+  get_child(name: string): HTMLElement[];
 }
 
 interface FoldModel extends Model {

@@ -8,7 +8,7 @@ from app.bundle import Bundled
 from app.model import stretches
 from app.model.roll import derivation
 from app.text import listed, say
-from app.widgets.cards import column
+from app.widgets.cards import Filled
 
 PLANES = ("rough", "smooth")
 
@@ -68,7 +68,7 @@ class Derivation:
     def __init__(self, clock):
         self._scene = None
         self._clock = clock
-        self.place = column()
+        self.place = Filled()
 
     def show(self, scene):
         if scene is self._scene:

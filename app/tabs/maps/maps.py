@@ -24,13 +24,13 @@ from app.tabs.maps.picture import CLOCK, MapFigure, RunFigure
 from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import body_of, colours_say, of_reason, of_run, of_worst, title, with_unit
 from app.text import error_text, listed, say
-from app.widgets.cards import alert, areas, column, flow, note, progress, words
+from app.widgets.cards import Filled, alert, areas, flow, note, progress, words
 from app.widgets.copy import Copy
 from app.widgets.download import Download
 from app.widgets.drawing import drawn
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage, put_motion
-from app.widgets.form import joined
+from app.widgets.form import Form
 from app.widgets.forms import Button
 from tippe_core import TopError
 
@@ -67,7 +67,7 @@ class Maps:
         self.head, self.bar, self.wording = words(), words(visible=False, margin=(4, 0)), words()
         self.worst, self.key = words(), words(margin=(6, 0))
         self.run_says = words(margin=(6, 0), css_classes=["answer"])
-        self.disagree = column()  # what is said, and a button for each
+        self.disagree = Filled()  # what is said, and a button for each
         self.map, self.curve = drawn(MapFigure), drawn(RunFigure)
         self.map.hand.on_change("data", lambda attr, old, new: self._by_hand(new))
         self.stage = FilmStage(clock=CLOCK, anew=True, label=say("maps.stage.label"), none=say("maps.stage.none"),
@@ -246,12 +246,9 @@ class Maps:
             self.worst.object = note(of_worst(level))
             says = [words(of_reason(*each, request)) for each in told_of] or [words(note(say("maps.agree")))]
             shows = [Button(say("maps.show_one"), partial(self.go, *one, cell=True), kind="link") for one in self._ones]
-            self.disagree.objects = joined(
-                [
-                    *([words(f"<h2>{say('maps.disagree')}</h2>")] if told_of else []),
-                    *(part for pair in zip_longest(says, shows) for part in pair if part is not None),
-                ]
-            )
+            title = [words(f"<h2>{say('maps.disagree')}</h2>")] if told_of else []
+            pairs = [part for pair in zip_longest(says, shows) for part in pair if part is not None]
+            self.disagree.objects = [Form(*title, *pairs)]
 
     # ---- one run ----
 

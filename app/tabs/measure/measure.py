@@ -27,7 +27,7 @@ from app.tabs.measure.places import PLACES, head
 from app.tabs.measure.recipe import recipes
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words
 from app.text import error_text, listed, say
-from app.widgets.cards import alert, areas, column, flow, note, words
+from app.widgets.cards import Filled, alert, areas, flow, note, words
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage
 from app.widgets.forms import Button, Checks, Choice
@@ -54,7 +54,7 @@ class Measure:
                                sizing_mode="stretch_width", height=300)  # fmt: skip
         self.pictures = Pictures(self._pulled)
         self.columns = Columns(self._by_hand, self._wrong)
-        self.constants, self.over, self.below = (column() for _ in range(3))
+        self.constants, self.over, self.below = (Filled() for _ in range(3))
         self._make_controls()
         self.found = words(note(say("measure.nothing_yet")), style=TABLE)
         self.home = Home(self._runs, self.filmed)

@@ -1,4 +1,4 @@
-// Words, and what a hand sets or presses beside them, in one component; Python knows each by its number.
+// Columns of words, and what a hand sets or presses beside them, in one component; Python knows each by its number.
 import { renderButton as Button } from "../controls/button.js";
 import { renderChoice as Choice } from "../controls/choice.js";
 import { renderField as Field } from "../controls/field.js";
@@ -14,6 +14,7 @@ import { renderDownload as Download } from "./download.js";
 /** @type {Record<string, (rendering: any) => any>} */
 const kinds = { Button, Checks, Choice, Download, Field, Menu, Stretch, TextFile };
 const style = `.column { display: flex; flex-direction: column; } .column > * { flex: 0 0 auto; align-self: stretch; min-width: 0; box-sizing: border-box; } [hidden] { display: none !important; }`;
+const styleOfColumn = style + style.replaceAll(".column", ":host"); // of one that has a sheet of its own
 
 class Form {
   /** @param {Rendering<FormModel>} rendering */
@@ -26,6 +27,8 @@ class Form {
     this.parts = new Map(); // each a stand-in for its model, with its values
     const life = lifeOf(rendering), { of } = JSON.parse(this.model.state), { tree, sheets } = JSON.parse(this.model.parts);
     this.sheets = sheets;
+    /** @type {HTMLElement[] | undefined} */
+    this.others = undefined; // those that still have no place
     rendering.el.replaceChildren(part("style", {}, style), part("div", { class: "column" }, ...tree.map((given) => this.make(given, of))));
     this.model.on("state", () => this.show());
     this.model.on("file", () => this.put(this.model.file[0], { file: this.model.file.slice(1) }));
@@ -33,15 +36,20 @@ class Form {
   }
 
   make({ kind, at, style: looks, sends = [], sheet, inside }, of) {
-    const place = part("div", { style: looks, class: kind }), model = modelOf(of[at]);
+    if (kind === "other") return (this.others ??= [...this.model.get_child("others")]).shift();
+    const place = part("div", { style: looks }), model = modelOf(of[at]), own = sheet === undefined ? [] : [part("style", {}, this.sheets[sheet])];
+    const named = kind === "column" && own.length ? [] : [kind]; // the rules for a column out here would win over its own
     this.parts.set(at, model);
     follow(model, ["visible"], () => (place.hidden = !model.visible));
+    follow(model, ["css_classes"], () => (place.className = [...named, ...model.css_classes].join(" ")));
     if (kind === "column") {
-      place.append(...inside.map((given) => this.make(given, of)));
+      const parts = inside.map((given) => this.make(given, of));
+      if (own.length) place.attachShadow({ mode: "open" }).append(part("style", {}, styleOfColumn), ...own, ...parts);
+      else place.append(...parts);
       return place;
     }
     const el = part("div");
-    place.attachShadow({ mode: "open" }).append(...(kind === "words" ? [part("style", {}, this.sheets[sheet])] : []), el);
+    place.attachShadow({ mode: "open" }).append(...own, el);
     if (kind === "words") follow(model, ["object"], () => (el.innerHTML = model.object));
     else kinds[kind]({ model, el, view: {} });
     for (const name of sends) model.on(name, () => this.isShowing || this.send(at, name, model[name]));
