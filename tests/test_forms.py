@@ -5,7 +5,7 @@ from axe import violations
 from components import *  # noqa: F403
 
 from app.text import speaking
-from app.widgets.cards import column, flow, words
+from app.widgets.cards import flow, stack, words
 from app.widgets.form import Form
 from app.widgets.forms import Button, Checks, Field, Menu, Stretch, TextFile
 
@@ -97,7 +97,7 @@ def test_a_stretch_names_its_range_and_the_nearest(form):
 def test_in_one_form_each_part_is_heard_and_shows_what_python_says(form):
     found, heard = form(), []
     parts, says = parts_of_one(), words("before")
-    whole = Form(flow(parts["primary"], parts["field"]), column(says, parts["menu"]), parts["outline"])
+    whole = Form(flow(parts["primary"], parts["field"]), stack(says, parts["menu"]), parts["outline"])
     parts["primary"].on_click(lambda: heard.append(parts["field"].value))
     parts["menu"].on("value", lambda event: says.param.update(object="<b>after</b>", visible=True))
     page = found.show(whole)

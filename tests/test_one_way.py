@@ -41,6 +41,7 @@ from app.widgets.cards import Hidden
 from app.widgets.controls import FACES, Controls
 from app.widgets.drawing import Remote
 from app.widgets.guide import Guide
+from app.widgets.light import Light
 from app.widgets.portraits import Force, Potential, Ring
 from app.widgets.scheduling import RenderScheduler
 from app.widgets.surface3d import Surface3D, show_surface
@@ -219,7 +220,7 @@ def seen(view):
             found[path] = np.array([thing.start, thing.end])
         elif isinstance(thing, (Span, Label)):
             found[path] = np.asarray((thing.location if isinstance(thing, Span) else thing.text) * thing.visible)
-        elif isinstance(thing, param.Parameterized) and hasattr(thing, "jslink"):  # a part of the page
+        elif isinstance(thing, Light) or hasattr(thing, "jslink"):  # a part of the page
             for name in ("objects", "object", "value", "label", "options", "visible", "styles", "state"):
                 part = getattr(thing, name, None)
                 if isinstance(thing, Hidden) and not thing.visible:

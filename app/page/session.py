@@ -27,7 +27,7 @@ from app.tabs.learn.learn import Learn
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
 from app.text import say
-from app.widgets.cards import card, column, flexible, later, staged
+from app.widgets.cards import card, column, flexible, later, stack, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt, full, waits
 from app.widgets.scheduling import RenderScheduler
@@ -171,7 +171,7 @@ class Session:
         self._at_levels(lambda explores: own.formula.param.update(visible=not explores))
         parts = {"section": bench.section_view, "bench": bench.bench_view, "measure": own.view}
         section, measures, rocking = (card(say(f"main.cards.{name}"), *shown) for name, shown in parts.items())
-        stage = column(*built.view)
+        stage = stack(*built.view)
         return staged([later(stage, -1), later(rocking, 2)], [section, later(measures, 1)])
 
     def _spin(self):

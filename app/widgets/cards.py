@@ -3,6 +3,7 @@
 import panel as pn
 
 from app.widgets.form import Form
+from app.widgets.light import Stack, Words
 from app.widgets.typeset import typeset
 
 # The stage at the right of the other cards. On a narrow page both give their cards to one column.
@@ -56,18 +57,23 @@ def px(size):
 
 def words(text="", style="", **options):
     """Text as HTML; style: additional CSS."""
-    return pn.pane.HTML(text, stylesheets=[TYPE + style], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+    return Words(object=text, stylesheets=[TYPE + style], **options)
+
+
+def stack(*parts, **options):
+    """Parts, one below the other, which stay."""
+    return Stack(objects=[*parts], **options)
 
 
 def column(*parts, **options):
-    """Parts, one below the other."""
+    """Parts, one below the other, which may change."""
     return pn.Column(*parts, **({"sizing_mode": "stretch_width", "margin": 0} | options))
 
 
 def areas(sheet, inside=(), /, **content):
     """Parts that a style sheet arranges by their names, which are their classes; inside: sheets of each."""
-    parts = [column(*part, css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
-    return Form(column(*parts, stylesheets=[sheet]))
+    parts = [stack(*part, css_classes=[name], stylesheets=[*inside]) for name, part in content.items()]
+    return Form(stack(*parts, stylesheets=[sheet]))
 
 
 def alert(text):
@@ -83,7 +89,7 @@ def tall(*cards):
     """A column of a grid with its own height: its cards are higher than a phone's page, and the next column would hide
     them."""
     styles = {"gap": "24px", "height": "max-content", "max-height": "none"}
-    return column(*cards, styles=styles)
+    return stack(*cards, styles=styles)
 
 
 def progress(percent, says):
@@ -98,33 +104,26 @@ def swatch(colour, text, style="solid"):
 def card(title, *content):
     """A part of a room, with its title."""
     styles = {"height": "max-content", "box-sizing": "border-box", "overflow": "hidden"}
-    return column(words(f"<h2>{title}</h2>"), *content, styles=styles)
+    return stack(words(f"<h2>{title}</h2>"), *content, styles=styles)
 
 
 def flow(*content, margin=(6, 0)):
     """A row that wraps if there is too little room."""
-    return column(*content, margin=margin, styles=WRAPS | {"gap": "8px", "align-items": "center"})
+    return stack(*content, margin=margin, styles=WRAPS | {"gap": "8px", "align-items": "center"})
 
 
 def grid(*cards):
     """Cards side by side where there is room."""
     columns = "repeat(auto-fit, minmax(min(100%, 480px), 1fr))"
-    return Form(column(*cards, styles=ROOM | {"display": "grid", "grid-template-columns": columns}))
+    return Form(stack(*cards, styles=ROOM | {"display": "grid", "grid-template-columns": columns}))
 
 
-class Filled(pn.Column):
-    """A column whose content changes."""
-
-    def __init__(self, *parts, **options):
-        super().__init__(*parts, **({"sizing_mode": "stretch_width", "margin": 0} | options))
-
-
-class Hidden(Filled):
+class Hidden(pn.Column):
     """A column whose content is created when it is first shown: parts that nobody sees cost as much as others. make:
     a function that returns a list of them."""
 
     def __init__(self, make):
-        super().__init__(visible=False)
+        super().__init__(sizing_mode="stretch_width", margin=0, visible=False)
         self._make = make
         self.param.watch(self._fill, "visible")
 
@@ -143,8 +142,8 @@ def first(made):
 def staged(stage, others):
     """The cards of the stage and the other cards: side by side if there is room, the stage then 57 % wide and in sight
     while the others scroll; else in one column, in the `order` of each card, those of the stage after the others."""
-    on_the_right = column(*stage, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)])
-    return Form(column(column(*others, stylesheets=[SIDE]), on_the_right, stylesheets=[STAGED]))
+    on_the_right = stack(*stage, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)])
+    return Form(stack(stack(*others, stylesheets=[SIDE]), on_the_right, stylesheets=[STAGED]))
 
 
 def later(made, place):
@@ -157,4 +156,4 @@ def flexible(*cards):
     """A row of (card, its CSS flex: growth, shrinkage and least width), which wraps."""
     for each, flex in cards:
         each.styles = each.styles | {"flex": flex, "min-width": "0"}
-    return Form(column(*(each for each, _ in cards), styles=ROOM | WRAPS | {"align-items": "start"}))
+    return Form(stack(*(each for each, _ in cards), styles=ROOM | WRAPS | {"align-items": "start"}))

@@ -17,6 +17,7 @@ from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import validate
 from app.text import spoken
+from app.widgets.hold import later
 
 SHARES = 8  # into so many the data of a drawing are divided: one whose data change is sent with all of it
 MOST = 64  # descriptions that are kept
@@ -38,6 +39,7 @@ class Drawing(Bundled):
 
     def __init__(self, description, ids, **params):
         self._places, self._hears = {id: f"data{number % SHARES}" for number, id in enumerate(ids)}, {}
+        self._late = {}  # {parameter: its new value}, not sent yet
         super().__init__(described=description, **({"margin": 0} | params))
         at_once(self, "sent")
         self.param.watch(validate.handler(self._take), "sent")
@@ -45,19 +47,28 @@ class Drawing(Bundled):
     def get(self, model, name):
         """The present value of a property of a model."""
         if name == "data" and model.id in self._places:
-            return getattr(self, self._places[model.id]).get(model.id, model.data)
-        return self.looks.get(model.id, {}).get(name, getattr(model, name))
+            return self._now(self._places[model.id]).get(model.id, model.data)
+        return self._now("looks").get(model.id, {}).get(name, getattr(model, name))
+
+    def _now(self, name):
+        return self._late.get(name, getattr(self, name))
 
     def set(self, model, values):
         """Sets properties of a model."""
         others = dict(values)
         if model.id in self._places and "data" in others:
             place = self._places[model.id]
-            setattr(self, place, getattr(self, place) | {model.id: others.pop("data")})
-        looks = self.looks.get(model.id, {}) | others
-        differ = {name: value for name, value in looks.items() if value != getattr(model, name)}
-        if differ != self.looks.get(model.id, {}):
-            self.looks = {**self.looks, model.id: differ}
+            self._late[place] = self._now(place) | {model.id: others.pop("data")}
+        looks, before = self._now("looks"), self._now("looks").get(model.id, {})
+        differ = {name: value for name, value in (before | others).items() if value != getattr(model, name)}
+        if differ != before:
+            self._late["looks"] = {**looks, model.id: differ}
+        if self._late:
+            later(self, self._send)
+
+    def _send(self):
+        late, self._late = self._late, {}
+        self.tell(**late)
 
     def hear(self, model, act):
         """Calls act("data", old, new) when the browser changes the data of a source."""

@@ -11,13 +11,15 @@ from app.bundle import Bundled, values_of
 from app.state import validate
 from app.widgets.download import Download
 from app.widgets.forms import Button, Checks, Choice, Field, Menu, Stretch, TextFile, hear
+from app.widgets.hold import later
+from app.widgets.light import Light, Stack, Words
 
 PARTS = (Button, Checks, Choice, Download, Field, Menu, Stretch, TextFile)
 FILE = "file"  # of a Download: sent once, not with the state of all
 
 
 class Form(Bundled):
-    """views: columns, which keep what they have; words() and PARTS, which hear of hands and change as they would alone;
+    """views: Stacks; Words and PARTS, which hear of hands and change as they would alone;
     and others, which are parts of the page as before, but stand where they are."""
 
     parts = param.String(default="{}", constant=True, doc="JSON. tree: kind (of a part, or words, column or other), at "
@@ -39,20 +41,20 @@ class Form(Bundled):
         hear(self, sent=self._take)
 
     def select(self, selector=None):
-        inside = (part for part in self._parts if type(part) is not pn.Column)
+        inside = (part for part in self._parts if isinstance(part, Bundled))
         return super().select(selector) + [found for part in inside for found in part.select(selector)]
 
     def _tree(self, view, others):
-        if not (type(view) is pn.Column or isinstance(view, (pn.pane.HTML, *PARTS))):
+        if not isinstance(view, (Light, *PARTS)):
             others.append(view)
             return {"kind": "other"}
         found = {"at": len(self._parts), "style": style_of(view)}
         self._parts.append(view)
         if view.stylesheets:
             found["sheet"] = self._sheets.setdefault("".join(view.stylesheets), len(self._sheets))
-        if isinstance(view, pn.Column):
-            return found | {"kind": "column", "inside": [self._tree(each, others) for each in view]}
-        if isinstance(view, pn.pane.HTML):
+        if isinstance(view, Stack):
+            return found | {"kind": "column", "inside": [self._tree(each, others) for each in view.objects]}
+        if isinstance(view, Words):
             return found | {"kind": "words"}
         return found | {"kind": type(view).__name__, "sends": [*view.SENDS]}
 
@@ -65,6 +67,9 @@ class Form(Bundled):
                 self.file = [at, *event.new]
             else:
                 self._of[at][event.name] = event.new
+        later(self, self._send)
+
+    def _send(self):
         self.state = self._state()
 
     def _take(self, event):
@@ -78,16 +83,15 @@ class Form(Bundled):
         try:
             setattr(part, name, new)
         finally:
-            self.state = self._state()
+            later(self, self._send)
 
 
 def shown(part):
     """{name: value} of what a part shows."""
-    layout = {"visible": part.visible, "css_classes": part.css_classes}
-    if isinstance(part, pn.pane.HTML):
-        return layout | {"object": part.object}
-    own = {} if isinstance(part, pn.Column) else values_of(part)
-    return {name: value for name, value in own.items() if name != FILE} | layout
+    if isinstance(part, Light):
+        return {name: getattr(part, name) for name in part.SENDS}
+    own = {name: value for name, value in values_of(part).items() if name != FILE}
+    return own | {name: getattr(part, name) for name in Light.SENDS}
 
 
 def style_of(view):

@@ -10,6 +10,7 @@ from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import validate
 from app.text import say
+from app.widgets.hold import held
 
 MOST_CLICKS = 10  # in one message
 
@@ -59,7 +60,7 @@ class Part(Bundled):
 
         def heard(event):
             if not self._is_put:
-                with pn.io.hold():
+                with held():
                     act(event)
 
         self.param.watch(heard, name)

@@ -4,13 +4,13 @@ three dots. On a phone the tabs are at the foot.
 The browser answers a click on a tab by showing the place of its room; Python then has the view created.
 """
 
-import panel as pn
 import param
 
 from app.bundle import Bundled
 from app.state import validate
 from app.text import LANGUAGES, listed, say, spoken
 from app.widgets.forms import hear, one_of
+from app.widgets.hold import held
 
 
 class Head(Bundled):
@@ -45,7 +45,7 @@ class HeadBar:
     def _heard(self, event):
         count, name, value = validate.parts(event.new, validate.number, one_of(self._does), validate.anything)
         self._answered = int(count)
-        with pn.io.hold():
+        with held():
             try:
                 self._does[name](value)
             finally:

@@ -2,8 +2,6 @@
 
 from functools import partial
 
-import panel as pn
-
 from app.borrowed import at_once
 from app.model.roll.slipping import slipping
 from app.model.runs import LATER, Run, Runs
@@ -11,6 +9,7 @@ from app.model.start import DEFAULTS, GIVEN
 from app.state import validate
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import one_of
+from app.widgets.hold import held
 from app.widgets.plane_view import PlaneView
 from tippe_core import Top, TruncatedSphere
 
@@ -29,7 +28,7 @@ class PlaneCard:
 
     def _on_road(self, event):
         _, road = validate.parts(event.new, validate.number, one_of(self._roads))
-        with pn.io.hold():
+        with held():
             self._roads[road]()
 
     def show_selected(self, scene):
@@ -43,7 +42,7 @@ class PlaneCard:
 
     def _show_slipping(self, scene, path):
         if scene.rolling is self._trajectory:
-            with pn.io.hold():
+            with held():
                 self.plane.show_slipping(path, scene)
 
 

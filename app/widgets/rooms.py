@@ -15,6 +15,7 @@ from app.text import say
 from app.widgets.cards import alert, column, note, words
 from app.widgets.failure import after, attempt
 from app.widgets.forms import Button
+from app.widgets.hold import held
 
 AROUND = (24, 28)
 AWAY = 600.0  # s after which a room gives its parts back; what was entered in it stays
@@ -100,7 +101,7 @@ class Place:
             if self._waits:
                 self._add(partial(self._attempt, self._put))
             else:
-                with pn.io.hold():
+                with held():
                     self._attempt(self._create)
         finally:
             end = turn.rest if self._waits and not self._failed else turn.done

@@ -11,6 +11,7 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled
 from app.widgets.failure import after, attempt
+from app.widgets.hold import held
 from app.widgets.rest import REST, Rest
 
 # Two, so that one can be on its way while the browser paints the other.
@@ -172,7 +173,7 @@ class RenderScheduler:
             self.painted.sent = number
 
         if self._begun or not pn.state.curdoc:
-            with pn.io.hold():  # one message, in order, so that the answer comes after the picture
+            with held():  # one message, in order, so that the answer comes after the picture
                 sent()
         else:  # until the page has loaded Bokeh sends only changes that are made under its lock
             pn.state.curdoc.add_next_tick_callback(partial(attempt, sent))
@@ -186,6 +187,6 @@ class RenderScheduler:
 
 def _each(shows, scene):
     """Shows a scene in all views, even if one of them fails."""
-    with pn.io.hold(), ExitStack() as others:
+    with held(), ExitStack() as others:
         for show in reversed(shows):
             others.callback(show, scene)

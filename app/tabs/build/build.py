@@ -4,8 +4,6 @@ import html
 import math
 from functools import partial
 
-import panel as pn
-
 from app.model.build.builder import LARGEST_FILE
 from app.model.build.dimensions import FAMILIES, nearest, value_of
 from app.model.build.inside import inside
@@ -14,9 +12,10 @@ from app.tabs.build.fields import symbol
 from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
-from app.widgets.cards import Hidden, alert, column, flow, note, words
+from app.widgets.cards import Hidden, alert, flow, note, stack, words
 from app.widgets.download import Download
 from app.widgets.forms import Button, Choice, Field, Menu, TextFile
+from app.widgets.hold import held
 from app.widgets.numbers import Numbers, number, tidy
 from app.widgets.typeset import typeset
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
@@ -86,7 +85,7 @@ class Inside:
         self.switch = Choice(options, "solid", say("build.bench.inside"))
         self.switch.on("value", lambda event: choose(event.new))
         self.steel = words(note(say("build.bench.steel")), sizing_mode=None)
-        self.view = column(flow(self.switch, self.steel))
+        self.view = stack(flow(self.switch, self.steel))
 
     def show(self, shape):
         kind = inside(shape)
@@ -164,7 +163,7 @@ class Build:
                 flow(self.saved, self.file, self.stl), self.file_words, self.source]  # fmt: skip
 
     def _show(self, draft):
-        with pn.io.hold():
+        with held():
             self._show_fields(draft)
             elsewhere = {"measured", *self._dimensions}
             wording = [text for name, text in draft.messages.items() if name not in elsewhere]

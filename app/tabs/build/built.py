@@ -5,7 +5,7 @@ import numpy as np
 from app.bundle import pack
 from app.tabs.build.verdict import VerdictWords
 from app.text import say, written
-from app.widgets.cards import column, words
+from app.widgets.cards import stack, words
 from app.widgets.forms import Button
 from app.widgets.top3d import Top3D, pack_frames
 
@@ -35,7 +35,7 @@ class Built:
     @property
     def view(self):
         """The stage, and the verdict."""
-        stage = column(self.top, self.size, self.spin, styles={"position": "relative", "overflow": "hidden"})
+        stage = stack(self.top, self.size, self.spin, styles={"position": "relative", "overflow": "hidden"})
         return [stage, self.told.view, self.told.strip]
 
     def show(self, scene):

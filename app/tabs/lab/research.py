@@ -4,7 +4,6 @@ the run on the stage."""
 from functools import partial
 
 import numpy as np
-import panel as pn
 import param
 
 from app.model.colours import COLOURS
@@ -22,6 +21,7 @@ from app.widgets.drawing import drawn
 from app.widgets.event_list import EventList
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import Choice
+from app.widgets.hold import held
 from app.widgets.times import key, label
 from app.widgets.tops_map import TopsMap
 
@@ -106,7 +106,7 @@ class Research(param.Parameterized):
         if not self._open:
             return
         name = self.shown
-        with pn.io.hold():
+        with held():
             self._switch.value = name
             self._note.visible = name in ROLLING and self._lab.explorer.table != "rough"
             if name not in self._made:

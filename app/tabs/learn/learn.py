@@ -14,7 +14,7 @@ from app.tabs.learn.published import published_view
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
-from app.widgets.cards import Filled, Hidden, card, column, first, later, staged, words
+from app.widgets.cards import Hidden, card, column, first, later, staged, words
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import Choice, hear
 from app.widgets.top3d import Top3D, show_top
@@ -58,7 +58,7 @@ class Learn(param.Parameterized):
     def _build(self):
         # in a column, because a grid with a layout of its own cannot be hidden
         self.pair = Hidden(lambda: [self._pair()])
-        self.others = Filled()
+        self.others = column()
         self._made = {}
         return column(self.sections, self.lesson, self.pair, self.others, css_classes=["learn"])
 

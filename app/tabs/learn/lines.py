@@ -8,7 +8,7 @@ from app.bundle import Bundled
 from app.model import stretches
 from app.model.roll import derivation
 from app.text import listed, say
-from app.widgets.cards import Filled
+from app.widgets.cards import column
 
 PLANES = ("rough", "smooth")
 
@@ -68,7 +68,7 @@ class Derivation:
     def __init__(self, clock):
         self._scene = None
         self._clock = clock
-        self.place = Filled()
+        self.place = column()
 
     def show(self, scene):
         if scene is self._scene:

@@ -12,6 +12,7 @@ from app.model.votes.classroom import Refused
 from app.model.votes.desk import DESK
 from app.state.url_state import EXPLORER, inputs_of
 from app.text import say
+from app.widgets.hold import held
 
 MOST_REQUESTS = 4
 
@@ -65,7 +66,7 @@ class Counter:
                 self._begin()
             if isinstance(result, Exception) and not isinstance(result, (Refused, Away)):
                 raise result
-            with pn.io.hold():
+            with held():
                 done(result)
 
         DESK.ask(work, lambda result: self._post(lambda: answered(result)))
@@ -75,7 +76,7 @@ class Counter:
         self.leave()
 
         def news(room):
-            with pn.io.hold():
+            with held():
                 if self._end is end:  # else it is late news of another room
                     done(room)
 

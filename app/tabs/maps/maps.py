@@ -5,8 +5,6 @@ from dataclasses import replace
 from functools import partial
 from itertools import zip_longest
 
-import panel as pn
-
 from app.model.maps.body import outline_of
 from app.model.maps.choice import AT, MapChoice
 from app.model.maps.kept import keep, recall
@@ -24,7 +22,7 @@ from app.tabs.maps.picture import CLOCK, MapFigure, RunFigure
 from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import body_of, colours_say, of_reason, of_run, of_worst, title, with_unit
 from app.text import error_text, listed, say
-from app.widgets.cards import Filled, alert, areas, flow, note, progress, words
+from app.widgets.cards import alert, areas, column, flow, note, progress, words
 from app.widgets.copy import Copy
 from app.widgets.download import Download
 from app.widgets.drawing import drawn
@@ -32,6 +30,7 @@ from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage, put_motion
 from app.widgets.form import Form
 from app.widgets.forms import Button
+from app.widgets.hold import held
 from tippe_core import TopError
 
 PICTURE_EVERY = 0.3  # s
@@ -67,7 +66,7 @@ class Maps:
         self.head, self.bar, self.wording = words(), words(visible=False, margin=(4, 0)), words()
         self.worst, self.key = words(), words(margin=(6, 0))
         self.run_says = words(margin=(6, 0), css_classes=["answer"])
-        self.disagree = Filled()  # what is said, and a button for each
+        self.disagree = column()  # what is said, and a button for each
         self.map, self.curve = drawn(MapFigure), drawn(RunFigure)
         self.map.hand.on_change("data", lambda attr, old, new: self._by_hand(new))
         self.stage = FilmStage(clock=CLOCK, anew=True, label=say("maps.stage.label"), none=say("maps.stage.none"),
@@ -219,7 +218,7 @@ class Maps:
 
     def _show_part(self, run, level, share):
         if run is self._run and not run.stopped:
-            with pn.io.hold():
+            with held():
                 self.wording.object = ""
                 self.bar.object = _bar(100 * share)
                 self._show(level)
@@ -240,7 +239,7 @@ class Maps:
         level, found = result
         told_of = [(each, k) for each in found for k in range(min(len(each.reasons), WHY))]
         self._ones = [each.reasons[k].one for each, k in told_of]
-        with pn.io.hold():
+        with held():
             self._show(level)
             self.wording.object = ""
             self.worst.object = note(of_worst(level))
@@ -304,7 +303,7 @@ class Maps:
             self._throw(*start, look)
 
     def _ran(self, request, across, up, found):
-        with pn.io.hold():
+        with held():
             self.run_says.object = of_run(request, across, up, found)
             self.curve.show(found.t, found.theta, request.seconds)
             put_motion(self.stage, found.t, found.film, outline_of(request, request.at(across, up), self._outline), 0.0)

@@ -4,7 +4,6 @@ rates of small deviations, and the scaling of the time of inversion."""
 from functools import partial
 
 import numpy as np
-import panel as pn
 from bokeh.models import ColumnDataSource, Line, MultiLine, Scatter
 
 from app.model import ends
@@ -18,6 +17,7 @@ from app.text import error_text, listed, say
 from app.widgets.cards import Hidden, alert, note, words
 from app.widgets.drawing import drawn
 from app.widgets.failure import ended
+from app.widgets.hold import held
 from app.widgets.plots import draw, plain
 from tippe_core import TopError
 
@@ -152,7 +152,7 @@ class Steady:
         if key != self._key:
             return
         if isinstance(result, TopError):
-            with pn.io.hold():
+            with held():
                 self.title.object = _title(x)
                 self._clear()
                 self.says.object = alert(error_text(result))
@@ -165,7 +165,7 @@ class Steady:
             return
         found, small = result
         self._small = small
-        with pn.io.hold():
+        with held():
             self._drawn, self.title.object = True, _title(x)
             self.bends.show(found)
             self._draw_rates()

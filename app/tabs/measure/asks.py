@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from app.model.measured.points import VIEWS
 from app.text import say
-from app.widgets.cards import Filled, flow, note, words
+from app.widgets.cards import column, flow, note, words
 from app.widgets.forms import Choice, Menu
 
 REMEMBERED = 20  # tables
@@ -23,7 +23,7 @@ class Asks:
         self.seen = Choice({say(f"measure.views.{view}"): view for view in VIEWS}, VIEWS[0])
         self._of_view = flow(words(note(say("measure.which_view")), sizing_mode=None), words(DRAWN, sizing_mode=None),
                              self.seen)  # fmt: skip
-        self.view = Filled()
+        self.view = column()
         for part in (self.run, self.seen):
             part.on("value", self._answered)
 

@@ -22,7 +22,7 @@ class Columns:
 
     def __init__(self, changed, wrong):
         self._changed, self._wrong, self._table, self._errors = changed, wrong, None, ()
-        self.rate, self.view = None, cards.Filled(margin=(8, 0))
+        self.rate, self.view = None, cards.column(margin=(8, 0))
 
     @property
     def frames_a_second(self):

@@ -8,7 +8,7 @@ from bokeh.models import BoxAnnotation, ColumnDataSource, FixedTicker, Label, Li
 from app.bundle import call, pack
 from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
-from app.widgets.cards import TYPE, Filled, words
+from app.widgets.cards import TYPE, column, words
 from app.widgets.drawing import drawn
 from app.widgets.film_stage import clear_motion, put_motion
 from app.widgets.forms import Stretch
@@ -128,7 +128,7 @@ class Pictures:
 
     def __init__(self, pulled):
         self._pulled, self._names, self._series = partial(_heard, pulled), (), None
-        self.view = Filled()
+        self.view = column()
 
     def clear(self):
         """Shows an empty frame in place of the figures."""

@@ -3,8 +3,6 @@
 from dataclasses import replace
 from functools import partial
 
-import panel as pn
-
 from app.model.bodies import body, outline
 from app.model.measured.cells import MeasuredError
 from app.model.measured.data import settled
@@ -27,10 +25,11 @@ from app.tabs.measure.places import PLACES, head
 from app.tabs.measure.recipe import recipes
 from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words
 from app.text import error_text, listed, say
-from app.widgets.cards import Filled, alert, areas, flow, note, words
+from app.widgets.cards import alert, areas, column, flow, note, words
 from app.widgets.failure import unless_stopped
 from app.widgets.film_stage import FilmStage
 from app.widgets.forms import Button, Checks, Choice
+from app.widgets.hold import held
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
@@ -54,7 +53,7 @@ class Measure:
                                sizing_mode="stretch_width", height=300)  # fmt: skip
         self.pictures = Pictures(self._pulled)
         self.columns = Columns(self._by_hand, self._wrong)
-        self.constants, self.over, self.below = (Filled() for _ in range(3))
+        self.constants, self.over, self.below = (column() for _ in range(3))
         self._make_controls()
         self.found = words(note(say("measure.nothing_yet")), style=TABLE)
         self.home = Home(self._runs, self.filmed)
@@ -192,7 +191,7 @@ class Measure:
             if run:
                 run.forget()
         self._found, self._kept, self.leave.visible = None, {}, False
-        with pn.io.hold():  # Bokeh refuses changes of its figures without the document's lock
+        with held():  # Bokeh refuses changes of its figures without the document's lock
             self.found.object, self.constants.objects = "", []
             self.home.clear()
             self.pictures.show(None)
