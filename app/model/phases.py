@@ -1,4 +1,4 @@
-"""The judge: divides a run into phases, each of one kind. docs/phases.md defines the kinds, in the same order.
+"""Divides a run into phases, each of one kind. docs/phases.md defines the kinds, in the same order.
 
 Of a run it needs only what is in its table: times, tilts, what carries the top, whether it slips, spin and kinetic
 energy.
@@ -35,7 +35,7 @@ NODS = 10.0  # degrees: what changes by less within a second leans or nods, by m
 
 
 class Samples(NamedTuple):
-    """A run as the judge sees it: t (n,) in s; tilt (n,) in degrees; carried (n,), "ball", "stem", "both" or "none";
+    """A run as it is divided: t (n,) in s; tilt (n,) in degrees; carried (n,), "ball", "stem", "both" or "none";
     rolls (n,); spin (n,) in rev/s; kinetic (n,) in MgR; flights, as (from, to) in s; a of the top; cuts, the times (s)
     at which what is left over is divided: where its stem leaves the table, and where it begins to roll, each for good;
     repeats, since when (s) nothing is lost any more, so that its tilt repeats itself."""

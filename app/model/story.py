@@ -1,4 +1,4 @@
-"""The narrator: what the page says of a motion on a table, made of the phases of that motion and of its numbers.
+"""What the page says of a motion on a table, made of the phases of that motion and of its numbers.
 
 Words are in text/<language>/lab.toml, under the kinds of phases and their variants. A variant that names a cause is
 chosen only where the run, or the stability of this top, shows that it is the cause.

@@ -42,7 +42,7 @@ from tippe_core import (
     save_top,
 )
 
-# The throw of a new body: the spin near theta = 0 that the paper's top has at K_R = 10; for a tippe top also K_J at the
+# The start of a new body: the spin near theta = 0 that the paper's top has at K_R = 10; for a tippe top also K_J at the
 # share of P that it has at K_J = 7. An ordinary top is released at a tilt, or it would not stay up.
 THROWN_SHARE = 7 / pole_constants(Top.paper(), 10.0)[0]
 THROWN_SPIN = 10.0 / f3_squared(0.0, Top.paper()) ** 0.5 * Scales.paper().angular_velocity  # rad/s
@@ -171,11 +171,11 @@ class Builder(param.Parameterized):
         self._try("piece", lambda: Turned(R=shape.R, solid=Solid(shape.solid.slices[:-1])))
 
     def choose(self, name: str) -> None:
-        """Takes the preset with this name, with a new throw."""
+        """Takes the preset with this name, with a new start."""
         self._take(TOYS[name])
 
     def choose_family(self, family: str) -> None:
-        """Takes the first preset of a family, with a new throw."""
+        """Takes the first preset of a family, with a new start."""
         self._take(next(preset for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
 
     def fill(self, kind: str) -> None:
@@ -185,7 +185,7 @@ class Builder(param.Parameterized):
             self._try("inside", lambda: filled(shape, kind))
 
     def load(self, text: str | bytes) -> None:
-        """Takes the body in a file that save() wrote, with a new throw."""
+        """Takes the body in a file that save() wrote, with a new start."""
         self._try("file", lambda: load_top(text), thrown)
 
     def refuse_file(self, largest: int) -> None:
@@ -263,7 +263,7 @@ class Builder(param.Parameterized):
 
 
 def thrown(shape: Shape, top: Top | None = None) -> tuple[float, float]:
-    """(K_J, K_R) of the throw of a new body."""
+    """(K_J, K_R) of the start of a new body."""
     spin, top = THROWN_SPIN * shape.scales.time, top or shape.top
     if top.a < 0:
         constants = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, spin)

@@ -30,7 +30,7 @@ UNITS = {"tilt": "rad", "line": "rad", "azimuth": "rad", "spin": "rad/s", "prece
 @dataclass(frozen=True, eq=False)
 class Film:
     """law: a key of OF_LAW except "rolling"; loose: keys of LOOSE; part: (start, end) in s. top, scales, shape: those
-    of the filmed top. fits: said_of() of the rolling and of the sliding fit; empty if nothing was fitted."""
+    of the filmed top. fits: stored_fit() of the rolling and of the sliding fit; empty if nothing was fitted."""
 
     law: str
     loose: tuple[str, ...]

@@ -29,7 +29,7 @@ def stored_fit(fit: Fit) -> dict[str, Any]:
 
 
 def checked(stored: Any, model: Model) -> dict[str, Any]:
-    """The result of said_of() for a Fit of this Model, checked. Raises ValueError, KeyError, TypeError."""
+    """The result of stored_fit() for a Fit of this Model, checked. Raises ValueError, KeyError, TypeError."""
     values, sides = dict(stored["values"]), dict(stored["sides"])
     if {*values} != {*model.free} or {*sides} != {*model.free} or not {*stored["unknown"]} <= {*model.free}:
         raise ValueError("fits")
