@@ -192,7 +192,7 @@ def test_no_cell_of_an_export_is_one_that_a_spreadsheet_would_execute():
     tab = Measure(Explorer().scene)
     tab.take("\t".join(harm) + "\n" + rows, name="=1+1.csv")
     for i, quantity in enumerate(("time", "azimuth", "spin")):
-        tab.columns.view[0].views[i][1].value = quantity
+        tab.columns.view[0].views[i].objects[1].value = quantity
     model = model_of("smoothed", Top.paper(), SIZES)
     residuals = residuals_of(model, tab._data)
     fit = Fit(model, dict.fromkeys(model.free, (0.1, 0.1)), np.eye(4), residuals, 0, {}, (), True)

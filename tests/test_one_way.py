@@ -11,7 +11,6 @@ from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
-import param
 import pytest
 from bokeh.document import Document
 from bokeh.models import ColumnDataSource, Label, Range1d, Span
