@@ -220,7 +220,7 @@ def test_what_was_chosen_by_hand_is_used_for_the_next_file_with_the_same_names()
     assert tab._data is None
     for i, quantity in enumerate(("time", "tilt", "spin")):
         tab.columns.view[0].views[i].objects[1].value = quantity
-    tab.columns.view[0].views[1][2].value = "deg"
+    tab.columns.view[0].views[1].objects[2].value = "deg"
     assert tab._data.series["tilt"].values[0] == pytest.approx(np.radians(0.1))
     tab.take(table(("t", "theta"), T, TILT))
     tab.take(table(names, T, 3 * TILT, SPIN))

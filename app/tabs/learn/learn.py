@@ -1,9 +1,12 @@
 """The tab Learn: the lesson, the part for theorists, and the pages beside them."""
 
+from functools import partial
+
 import param
 
 from app.model.lesson import lesson
 from app.model.lesson.runs import on_table
+from app.model.once import ONCE
 from app.model.runs import Run, Runs
 from app.state import validate
 from app.state.names import SECTIONS
@@ -13,7 +16,7 @@ from app.tabs.learn.present import Teacher
 from app.tabs.learn.published import published_view
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
-from app.text import say
+from app.text import say, spoken
 from app.widgets.cards import Hidden, card, column, first, later, staged, words
 from app.widgets.failure import unless_stopped
 from app.widgets.forms import Choice, hear
@@ -85,8 +88,11 @@ class Learn(param.Parameterized):
         return {step.name: state_of(step, scene) for step in steps}, runs_of(steps, scene)
 
     def _find(self, steps):
-        work = Run(lambda run, scene=self._scene: self._found(scene, steps), unless_stopped(self._take))
-        self._runs.begin(work, "lesson")
+        scene = self._scene
+        request = spoken(), tuple(step.name for step in steps), scene.top, scene.scales, scene.inputs["shape"]
+        work = partial(self._found, scene, steps)
+        run = Run(lambda run: ONCE.find(run.wait, request, work), unless_stopped(self._take))
+        self._runs.begin(run, "lesson")
 
     def _take(self, found):
         words_of, runs = found
