@@ -32,6 +32,12 @@ def address_of(kind, path):
     return f"./{component_resource_path(kind, '_bundle_path', path)}"
 
 
+def code_of(path):
+    """A short script without its comments: a page has it a hundred times."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return "\n".join(line for line in lines if not line.startswith("//"))
+
+
 class Encoders:
     """Tells Panel's server where the writers of films are, which a browser fetches when it makes one."""
 
@@ -39,7 +45,7 @@ class Encoders:
 
 
 # It runs a function of frontend/src/figures/callbacks.js: `run` is its name, and `given` its first argument.
-CALL = Path(__file__).with_name("call.js").read_text(encoding="utf-8")
+CALL = code_of(Path(__file__).with_name("call.js"))
 
 
 def call(run, **given):

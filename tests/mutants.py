@@ -61,7 +61,12 @@ class Mutant:
     @property
     def draw(self):
         """Between 0 and 1, the same for the same change."""
-        return int(hashlib.sha256(f"{self.before}\n{self.after}".encode()).hexdigest(), 16) / 2**256
+        return drawn(f"{self.before}\n{self.after}") / 2**256
+
+
+def drawn(text):
+    """A number below 2**256; each Python writes the quotes of a formatted string in its own way."""
+    return int(hashlib.sha256(re.sub("[\"']", "", text).encode()).hexdigest(), 16)
 
 
 def changes(tree):
@@ -72,7 +77,7 @@ def changes(tree):
         groups.setdefault((id(site[0]), site[1]), []).append(site)
     for group in groups.values():
         before = ast.unparse(group[0][0])
-        statement, _, node, field, value = group[int(hashlib.sha256(before.encode()).hexdigest(), 16) % len(group)]
+        statement, _, node, field, value = group[drawn(before) % len(group)]
         kept, change = getattr(node, field), functools.partial(setattr, node, field, value)
         change()
         yield statement, before, ast.unparse(statement), change

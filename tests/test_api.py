@@ -27,6 +27,7 @@ from tippe_core import (
     allowed_shares,
     f,
     glide,
+    grip,
     outcome,
     roll,
     slide,
@@ -225,6 +226,24 @@ def test_a_motion_ends_where_another_part_of_the_body_touches():
 def test_a_profile_is_checked():
     with pytest.raises(TopError, match=re.escape("Array(k, 2)")):
         slide(PAPER, START, Viscous(0.3), [0, 1], profile=[1.0, 2.0])
+    cone = next(preset.shape for preset in PRESETS if preset.name == "Wooden cone")
+    with pytest.raises(TopError, match=re.escape("Shape.profile(n) / Shape.R")):  # that of Shape.profile is in m
+        slide(cone.top, START, Viscous(0.3), [0, 1], profile=cone.profile(200))
+
+
+def test_what_needs_the_table_refuses_a_top_in_flight():
+    above = State(0.5, 0.0, 0.0, 10.0, z=2.0)
+    for act in (grip, outcome, lambda top, state: roll(top, None, [0.0, 1.0], state),
+                lambda top, state: glide(top, state, [0.0, 1.0])):  # fmt: skip
+        with pytest.raises(TopError, match="In flight"):
+            act(PAPER, above)
+
+
+@pytest.mark.parametrize("name", ["executor", "progress"])
+def test_many_runs_name_what_cannot_compute_or_hear_them_before_they_begin(name):
+    with pytest.raises(TopError) as caught:
+        slide_many(PAPER, START, Viscous(0.3), [1e9] * 9, **{name: "x"})
+    assert caught.value.name == name
 
 
 @pytest.mark.parametrize("top", [PAPER, Top(-0.5, 0.2, 0.3), Top(0.9, 0.01, 0.02), Top(-3.0, 2.0, 1.0)])

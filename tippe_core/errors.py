@@ -38,6 +38,7 @@ CODES = {
     "energy-not-resolved": "an energy whose nutation takes almost for ever",
     "start-not-resolved": "a start whose nutation takes almost for ever",
     # friction and contacts
+    "profile-in-r": "an outline in metres where the radius is the unit",
     "in-flight": "a top that does not touch the table",
     "below-sliding": "static friction smaller than sliding friction",
     "too-strong": "friction that no normal force balances (Painleve's paradox)",
@@ -177,7 +178,7 @@ def of_kind(name: str, value: Any, kind: Any) -> None:
     """Raises a TopError if the value is not what an annotation takes: one of the types that it names, or numbers."""
     kind = getattr(kind, "__bound__", None) or kind
     parts = get_args(kind) if get_origin(kind) in (Union, UnionType) else (kind,)
-    types = [get_origin(part) or part for part in parts]
+    types = [_origin(part) for part in parts]
     if Any in types or (value is None and NoneType in types):
         return
     if np.ndarray in types or any(part in NUMERIC for part in (kind, *parts)):
@@ -186,6 +187,12 @@ def of_kind(name: str, value: Any, kind: Any) -> None:
     elif all(isinstance(each, type) for each in types) and bool not in types and not isinstance(value, tuple(types)):
         raise TopError(name, value, " | ".join(each.__name__ for each in types if each is not NoneType),
                        code="wrong-kind")  # fmt: skip
+
+
+def _origin(part: Any) -> Any:
+    """The class of which an annotation is a special case; NumPy 2.5 has an alias for its arrays."""
+    found = get_origin(part) or part
+    return get_origin(found.__value__) if hasattr(found, "__value__") else found
 
 
 class Compared:

@@ -28,7 +28,7 @@ import numpy as np
 
 from .errors import TopError, checked, checked_many, finite, has_arrays, read_only
 from .paper import equations as eq
-from .paper.constants import State, versines
+from .paper.constants import State, require_contact, versines
 from .paper.top import Top
 from .types import Array, Bools, Like, Number, Scalars
 
@@ -276,6 +276,7 @@ def outcome(top: Top, state: State) -> Outcome:
     TopError
         for anything else, with the name, the value and the allowed range
     """
+    require_contact(top, state)
     s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3
     C_J = eq.C_J(c, s, w2, w3, top)
     velocity_2 = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (top.a * s * w1) ** 2

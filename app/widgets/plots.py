@@ -17,7 +17,7 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
-from app.bundle import call
+from app.bundle import call, code_of
 from app.model.colours import FAINT, INK
 from app.text import decimal_point, say
 from app.widgets.look import FAMILY
@@ -25,7 +25,7 @@ from app.widgets.look import FAMILY
 CLICKS, DRAG = ("tap", "doubletap"), ("panstart", "pan", "panend")
 """Bokeh's gestures. It calls the second of two clicks within 0.3 s a doubletap, wherever it is, and not a tap as
 well."""
-TICKS = Path(__file__).parents[1].joinpath("ticks.js").read_text(encoding="utf-8")
+TICKS = code_of(Path(__file__).parents[1] / "ticks.js")
 GRID, PAPER = "#e7ebef", "#ffffff"
 TYPE = {f"{part}_text_{name}": value for part in ("major_label", "axis_label")
            for name, value in (("color", INK), ("font_size", "12px"), ("font", FAMILY))}  # fmt: skip

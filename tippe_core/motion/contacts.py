@@ -9,6 +9,7 @@ not say what follows. If nothing presses the contact down (u_z' > 0 without cont
 import numpy as np
 
 from ..compiled import compiled
+from ..paper.constants import CLOSED
 from ..paper.search import zero
 from ..types import Array, Bools, Indices, Number
 from . import at
@@ -21,8 +22,8 @@ from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping
 
 # STILL: slip below which the rest of the motion to a halt takes far less time than 1e-9, to which events are located.
 # SLACK (Mg), TOUCH (R): smaller values count as 0. LEAST_MINOR: the smallest du_z'/dN allowed, relative to that
-# without friction. CLOSED (R): a contact closer to the table is closed.
-STILL, SLACK, TOUCH, LEAST_MINOR, CLOSED = 1e-13, 1e-10, 1e-11, 1e-6, 1e-9
+# without friction.
+STILL, SLACK, TOUCH, LEAST_MINOR = 1e-13, 1e-10, 1e-11, 1e-6
 FALLS = 1e-12  # ((gR)^1/2): a closed contact that moves down more slowly is at rest
 NUDGE = 1e-8  # ((gR)^1/2): the slip with which a patch starts to slide; far above the errors of steps
 SINKS = 1e-6  # (g): an open contact that accelerates downwards faster than this would have to carry

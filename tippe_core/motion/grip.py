@@ -18,11 +18,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import TopError, checked
+from ..errors import checked
 from ..paper import equations as eq
-from ..paper.constants import State, versines
+from ..paper.constants import State, require_contact, versines
 from ..paper.top import Top
-from .contacts import CLOSED
 
 
 @checked
@@ -49,8 +48,7 @@ def grip(top: Top, state: State) -> tuple[State, float]:
     TopError
         for anything but a Top and a State, and for a State in flight
     """
-    if state.z is not None and state.z > (least := 1 - top.a * np.cos(state.theta)) + CLOSED:
-        raise TopError("z", state.z, "z <= {most:.10g}", "In flight it touches nothing.", code="in-flight", most=least)
+    require_contact(top, state)
     a, I1, I3 = top.a, top.I1, top.I3
     v, m = (float(x) for x in versines(state.theta))
     c, s = (1 - v if v <= m else m - 1), (v * m) ** 0.5

@@ -64,16 +64,17 @@ TOLERANCE = 5e-9  # the least tolerance of an implicit step
 
 
 def slowness(w_z: float, modes: Modes, P: Record, C: Record) -> tuple[float, float]:
-    """The least slip speed, including that of the spin, of the contacts that slip, and the largest k N, after
-    forces()."""
-    least, k_N = np.inf, 0.0
+    """The least slip speed, including that of the spin, of the contacts that slip, and the fastest relaxation of a
+    slip, k N (1 + z^2/I1) with the height z of G above the contact; after forces()."""
+    least, fastest = np.inf, 0.0
     for i in range(1 + P.stem):
         if modes[i] == SLIP:
             u = np.hypot(C.u[i, 0], C.u[i, 1])
             least = min(least, np.hypot(u, P.law.radius * w_z))
             if u > 0.0:
-                k_N = max(k_N, np.hypot(C.F[i, 0], C.F[i, 1]) / u)
-    return least, k_N
+                k_N = np.hypot(C.F[i, 0], C.F[i, 1]) / u
+                fastest = max(fastest, k_N * (1 + C.rho[i, 2] ** 2 / P.I1))
+    return least, fastest
 
 
 def is_stiff(W: Record, P: Record, h: float) -> bool:
@@ -81,12 +82,8 @@ def is_stiff(W: Record, P: Record, h: float) -> bool:
     in W.slip."""
     C, modes = W.contacts, modes_of(W)
     w_z = turning(W.step.new, P)[1][2]
-    least, k_N = slowness(w_z, modes, P, C)
-    W.slip = least
-    return (
-        least < CREEPING_SLIP
-        and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * k_N * (1 + 1 / P.I1) > STIFF
-    )
+    W.slip, fastest = slowness(w_z, modes, P, C)
+    return W.slip < CREEPING_SLIP and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * fastest > STIFF
 
 
 def rates_in_time(z: Array, modes: Modes, P: Record, C: Record, out: Array) -> float:

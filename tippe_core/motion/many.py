@@ -166,6 +166,10 @@ def slide_many(
         for shapes that do not broadcast, for anything that is no top, state or law, and for a bad rtol, nudge,
         rolling_resistance, air_drag or landing
     """
+    if executor is not None and not isinstance(executor, Executor):
+        raise TopError("executor", executor, "Executor", code="wrong-kind")
+    if progress is not None and not callable(progress):
+        raise TopError("progress", progress, "Callable", code="wrong-kind")
     how = _How(preparing.checked_rtol(rtol), None if nudge is None else checked_nudge(nudge),
                preparing.checked_losses(rolling_resistance, air_drag), preparing.flies(landing),
                threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None)  # fmt: skip

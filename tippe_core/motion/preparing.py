@@ -7,11 +7,11 @@ from numpy.typing import ArrayLike
 
 from ..compiled import compiled
 from ..errors import TopError, checked, finite, numbers, positive
-from ..paper.constants import State
+from ..paper.constants import CLOSED, State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
 from . import at
-from .contacts import CLOSED, settle
+from .contacts import settle
 from .dynamics import arrange, turning
 from .friction import Friction
 from .kinds import NONE, STARTS, TOUCHES, Event
@@ -19,6 +19,7 @@ from .poses import sample_at
 from .records import BALL, MOTION, NO_ONE, OPEN, PROBLEM, SAMPLE, SLIP, STEM, Record, new
 from .standing import leaned
 
+LOWEST = 1e-3  # R: how far the lowest point of a profile may be from -1
 SHARE = 0.1  # the tolerance of one step, in units of rtol
 
 
@@ -60,6 +61,9 @@ def checked_profile(profile: ArrayLike) -> Array:
     rows = numbers("profile", profile)
     if rows.ndim != 2 or rows.shape[1] != 2 or not len(rows):
         raise TopError("profile", rows.shape, "Array(k, 2)", code="wrong-kind")
+    if abs(rows[:, 1].min() + 1) > LOWEST:
+        raise TopError("profile", float(rows[:, 1].min()), "min(profile[:, 1]) == -1",
+                       "It is in R: Shape.profile(n) / Shape.R.", code="profile-in-r")  # fmt: skip
     return rows
 
 

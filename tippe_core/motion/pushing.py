@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import TopError, checked, numbers
-from ..paper.constants import State
+from ..paper.constants import CLOSED, State
 from ..paper.top import Top
 from ..types import Array
 from . import at as of_y
 from . import preparing
-from .contacts import CLOSED, settle
+from .contacts import settle
 from .dynamics import turning
 from .friction import Friction
 from .kinds import TOUCHES

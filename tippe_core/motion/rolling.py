@@ -14,7 +14,7 @@ from ..compiled import compiled
 from ..errors import TopError, checked
 from ..paper import differences
 from ..paper import equations as eq
-from ..paper.constants import EXACT, Constants, Exact, State, exact_place
+from ..paper.constants import EXACT, Constants, Exact, State, exact_place, require_contact
 from ..paper.differences import Place
 from ..paper.poles import Floats, bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
@@ -102,6 +102,7 @@ class Rolling(Nutation):
         self.top = top
         with localcontext(EXACT):
             if isinstance(start, State):
+                require_contact(top, start)
                 curve, (inner, outer), here = _from_state(top, constants, start)
             else:
                 curve, (inner, outer) = _from_constants(top, constants, start, well)

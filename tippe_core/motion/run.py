@@ -259,7 +259,7 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
         speed = W.step.new[at.LOG_U]
         if speed < min(np.log(before), contacts.LOG_STILL):  # near the limit of friction it may still stick
             if contacts.may_stick(y, modes, slowest, P, C):
-                halted(y, slowest, P, C)
+                halted(y, slowest, modes, P, C)
                 return HALTS, slowest
             if speed < 2 * contacts.LOG_STILL:
                 return SLIPS, slowest
@@ -276,7 +276,7 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
                     rates(y, NO_ONE, modes, P, C, W.step.K[0])
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
-                    halted(y, i, P, C)
+                    halted(y, i, modes, P, C)
                     return (HALTS if holds else SLIPS), i
     return NONE, BALL
 

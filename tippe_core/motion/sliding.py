@@ -68,7 +68,7 @@ def slide(
         called now and then with the fraction of the time that is done; an exception that it raises stops the run
         and is passed on
     profile : array (k, 2) or None
-        radius and height above O in R of the whole body, as from Shape.profile: the motion ends where a part of it
+        radius and height above O in R of the whole body, Shape.profile(n) / Shape.R: the motion ends where a part of it
         other than the ball and the edge is below the table at one of the times
 
     Returns

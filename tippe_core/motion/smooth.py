@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from ..compiled import compiled
 from ..errors import TopError, checked
 from ..paper import equations as eq
-from ..paper.constants import EXACT, State, exact_place, exact_top
+from ..paper.constants import EXACT, State, exact_place, exact_top, require_contact
 from ..paper.search import zero
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import exact_zero
@@ -100,6 +100,7 @@ class Gliding(Nutation):
 
     @checked
     def __init__(self, top: Top, state: State) -> None:
+        require_contact(top, state)
         self.top, self.start = top, state
         self._inward = state.theta_dot < 0
         with localcontext(EXACT):

@@ -245,7 +245,7 @@ def lowest(profile: Array, theta: Array) -> Array:
     Parameters
     ----------
     profile : array (k, 2)
-        radius and height above O in R, as from Shape.profile
+        radius and height above O in R, Shape.profile(n) / Shape.R
     theta : array (n,)
         tilts in rad
 

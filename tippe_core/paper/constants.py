@@ -17,6 +17,7 @@ from .top import Top, TopNumbers
 # The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic in
 # cos(theta), so where it matters it is evaluated in Decimals with 60 digits (near a pole 1 - c may be 1e-34).
 EXACT = Context(prec=60, Emin=-999999, Emax=999999)
+CLOSED = 1e-9  # R: a contact that is higher above the table is open
 LARGEST = 1e12  # in a State: far beyond any real top, and EXACT keeps 36 figures even of the squares
 
 
@@ -171,6 +172,12 @@ def versines(theta: ArrayLike) -> tuple[Array, Array]:
     theta = np.asarray(theta, dtype=float)
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
     return v, np.where(theta == np.pi, 0.0, m)
+
+
+def require_contact(top: Top, state: State) -> None:
+    """Raises a TopError for a State in flight."""
+    if state.z is not None and state.z > (least := 1 - top.a * np.cos(state.theta)) + CLOSED:
+        raise TopError("z", state.z, "z <= {most:.10g}", "In flight it touches nothing.", code="in-flight", most=least)
 
 
 def exact_place(theta: float) -> tuple[Decimal, Decimal, Decimal]:
