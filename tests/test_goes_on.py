@@ -47,7 +47,7 @@ def test_in_parts_it_is_the_same_to_the_last_bit(seed):
     edge = toy.shape.edge
     landing, delta = "plastic" if seed % 4 else "stop", 0.0 if seed % 7 else 0.01
     how = {"edge": edge, "rtol": 10.0 ** -random.integers(6, 10), "landing": landing, "rolling_resistance": delta,
-           "profile": toy.shape.profile(101) if edge else None}  # fmt: skip
+           "profile": toy.shape.profile(101) / toy.shape.R if edge else None}  # fmt: skip
     start = toy.top, state, laws[seed // 8], np.linspace(1.0, random.uniform(2, 100), random.integers(1, 1000))
     try:
         whole = slide(*start, **how)

@@ -97,9 +97,9 @@ def visit(one):
                 && Object.entries(first).every(([name, value]) => now[name] == value) }}""",
         arg=[page.get_by_role("button", name="Undo").element_handle(), one.first], polling=200)  # fmt: skip
     # all of it, wherever another test has scrolled to
-    page.locator("[data-figure=plane]").first.evaluate(
-        "element => element.scrollIntoView({block: 'center', behavior: 'instant'})"
-    )
+    plane = page.locator("[data-figure=plane]").first
+    plane.wait_for()
+    plane.evaluate("element => element.scrollIntoView({block: 'center', behavior: 'instant'})")
     return one
 
 
