@@ -1,6 +1,6 @@
 """Which tests run through which function of the core and the model: python tests/reach.py writes data/reach.json, from
 which mutants.py takes the tests that it runs. For the core its kernels run as Python, and its own tests are tried; for
-the model kernels are compiled. A test that takes more than 4 s of the processor so is left out."""
+the model kernels are compiled. A test that takes more than 8 s of the processor so is left out."""
 
 import concurrent.futures
 import functools
@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
 from itertools import islice
@@ -26,9 +27,9 @@ ROOT = Path(__file__).parent.parent
 KEPT = ROOT / "tests" / "data" / "reach.json"
 OPTIONS = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:randomly", "--rootdir", str(ROOT)]
 PARTS = ("tippe_core", "app/model")
-SECONDS = 4
-EACH = 40
-"""So many tests are kept of those that reach a line: the quickest."""
+SECONDS = 8
+EACH = 2
+"""So many tests of one function are kept of those that reach a line: those with the quickest parameters."""
 
 
 def in_turn(call, arguments):
@@ -129,7 +130,8 @@ def measured(part, file):
     measure = coverage.Coverage(data_file=None, include=[f"{ROOT}/{part}/*"], config_file=False)
     reach = Reach(measure)
     measure.start()
-    pytest.main([*OPTIONS, "-m", "not served and not slow", str(file)], plugins=[reach])
+    marks = "not served" if part == "app/model" else "not served and not slow"
+    pytest.main([*OPTIONS, "-m", marks, str(file)], plugins=[reach])
     measure.stop()
     data = measure.get_data()
     lines = {
@@ -151,15 +153,25 @@ def tried(part, file):
 
 
 def chosen(seconds, lines):
-    """{path: {function: its tests}}: for each line the quickest, in the order of their times."""
+    """{path: {function: its tests}}, in the order of their times."""
     found = {}
     for path, of_file in sorted(lines.items()):
         for function, _ in functions_in(core(), path):
             inside = [tests for line, tests in of_file.items() if function.lineno < line <= function.end_lineno]
-            quick = {test for tests in inside for test in sorted(tests, key=seconds.get)[:EACH]}
+            quick = {test for tests in inside for test in quickest(tests, seconds)}
             found.setdefault(path, {}).setdefault(function.name, set()).update(quick)
     return {path: {name: sorted(tests, key=seconds.get) for name, tests in of_file.items() if tests}
             for path, of_file in found.items()}  # fmt: skip
+
+
+def quickest(tests, seconds):
+    """EACH of each function of tests."""
+    count = Counter()
+    for test in sorted(tests, key=seconds.get):
+        name, _, _ = test.partition("[")
+        count[name] += 1
+        if count[name] <= EACH:
+            yield test
 
 
 def prepare(part):
