@@ -1,9 +1,12 @@
 """The parts of a form in Chromium, alone on a page without a server: hands, keys, looks, and what Python hears."""
 
+from types import SimpleNamespace
+
 import pytest
 from axe import violations
 from components import *  # noqa: F403
 
+from app.state.validate import InvalidMessage
 from app.text import speaking
 from app.widgets.cards import flow, stack, words
 from app.widgets.form import Form
@@ -157,3 +160,13 @@ def test_they_are_legible_in_every_look_and_large_enough_for_a_finger(form, like
             low = found.page.locator("button, select, input:not([type=file], [type=checkbox]), label:has(input)")
             heights = low.evaluate_all("all => all.map(e => Math.round(e.getBoundingClientRect().height))")
             assert min(heights) >= 44, heights
+
+
+@pytest.mark.parametrize("name", ["object", "visible", "css_classes"])
+def test_no_browser_sets_the_words_of_a_form(name):
+    says = words("ours")
+    form = Form(flow(says))
+    for at, part in enumerate(form._parts):
+        with pytest.raises(InvalidMessage):
+            form._take(SimpleNamespace(new=[1, at, name, "theirs"]))
+        assert getattr(part, name, None) != "theirs"

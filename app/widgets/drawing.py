@@ -4,8 +4,7 @@ A figure has forty models of Bokeh's. They are created once for all pages of a s
 description, from which the browser makes them; after that only what differs is sent.
 """
 
-from collections import OrderedDict
-from threading import Lock
+from functools import lru_cache
 
 import param
 from bokeh.core.json_encoder import serialize_json
@@ -13,16 +12,14 @@ from bokeh.document import Document
 from bokeh.model import Model
 from bokeh.models import ColumnDataSource, Plot
 
-from app.borrowed import at_once
 from app.bundle import Bundled
 from app.state import validate
 from app.text import spoken
+from app.widgets.forms import hear
 from app.widgets.hold import later
 
 SHARES = 8  # into so many the data of a drawing are divided: one whose data change is sent with all of it
 MOST = 64  # descriptions that are kept
-
-_described, _changing = OrderedDict(), Lock()
 
 
 class Drawing(Bundled):
@@ -41,8 +38,7 @@ class Drawing(Bundled):
         self._places, self._hears = {id: f"data{number % SHARES}" for number, id in enumerate(ids)}, {}
         self._late = {}  # {parameter: its new value}, not sent yet
         super().__init__(described=description, **({"margin": 0} | params))
-        at_once(self, "sent")
-        self.param.watch(validate.handler(self._take), "sent")
+        hear(self, sent=self._take)
 
     def get(self, model, name):
         """The present value of a property of a model."""
@@ -124,23 +120,17 @@ def drawn(kind, *arguments, **layout):
     return found
 
 
-def _description(*key):
+@lru_cache(MOST)
+def _description(kind, arguments, language):
     """(what is created once, its JSON, the ids of its sources, whether a figure of it fills its place)."""
-    with _changing:
-        if key not in _described:
-            kind, arguments, _ = key
-            made = kind(*arguments)
-            document, figures = Document(), [*dict.fromkeys(_figures(vars(made).values()))]
-            for fig in figures:
-                document.add_root(fig)
-            ids = [source.id for source in document.select({"type": ColumnDataSource})]
-            heights = [0 if fig.sizing_mode == "stretch_both" else fig.height for fig in figures]
-            given = {"doc": document.to_json(deferred=False), "heights": heights}
-            _described[key] = made, serialize_json(given), ids, not all(heights)
-        _described.move_to_end(key)
-        while len(_described) > MOST:
-            _described.popitem(last=False)
-        return _described[key]
+    made = kind(*arguments)
+    document, figures = Document(), [*dict.fromkeys(_figures(vars(made).values()))]
+    for fig in figures:
+        document.add_root(fig)
+    ids = [source.id for source in document.select({"type": ColumnDataSource})]
+    heights = [0 if fig.sizing_mode == "stretch_both" else fig.height for fig in figures]
+    given = {"doc": document.to_json(deferred=False), "heights": heights}
+    return made, serialize_json(given), ids, not all(heights)
 
 
 def _figures(values):

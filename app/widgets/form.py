@@ -19,8 +19,8 @@ FILE = "file"  # of a Download: sent once, not with the state of all
 
 
 class Form(Bundled):
-    """views: Stacks; Words and PARTS, which hear of hands and change as they would alone;
-    and others, which are parts of the page as before, but stand where they are."""
+    """views: Stacks; Words and PARTS, which hear of hands and change as they would alone; and others, which are parts
+    of the page by themselves, in their places among these."""
 
     parts = param.String(default="{}", constant=True, doc="JSON. tree: kind (of a part, or words, column or other), at "
                          "(its number), style, sends (names), sheet (of its own), inside; sheets: CSS")  # fmt: skip
@@ -89,9 +89,9 @@ class Form(Bundled):
 def shown(part):
     """{name: value} of what a part shows."""
     if isinstance(part, Light):
-        return {name: getattr(part, name) for name in part.SENDS}
+        return {name: getattr(part, name) for name in part.SHOWS}
     own = {name: value for name, value in values_of(part).items() if name != FILE}
-    return own | {name: getattr(part, name) for name in Light.SENDS}
+    return own | {name: getattr(part, name) for name in Light.SHOWS}
 
 
 def style_of(view):

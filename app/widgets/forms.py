@@ -53,10 +53,7 @@ class Part(Bundled):
         at_once(self, *self.SENDS)
 
     def on(self, name, act):
-        """Calls act(event) when this value changes; all changes that it makes on the page are sent as one message.
-
-        (Without that, Bokeh refuses changes of a figure here, because Panel does not have the document's lock.)
-        """
+        """Calls act(event) when this value changes; all changes that it makes on the page are sent as one message."""
 
         def heard(event):
             if not self._is_put:

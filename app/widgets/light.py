@@ -10,7 +10,7 @@ class Light(pn.viewable.Viewer):
 
     visible = param.Boolean(default=True)
     css_classes = param.List(default=[])
-    SENDS = ("visible", "css_classes")
+    SHOWS = ("visible", "css_classes")
     _pane = None
 
     def __init__(self, visible=True, css_classes=(), margin=0, sizing_mode="stretch_width", align="start", width=None,
@@ -22,11 +22,11 @@ class Light(pn.viewable.Viewer):
     def __panel__(self):
         if self._pane is None:
             self._pane = self._made()
-            self.param.watch(lambda *events: self._pane.param.update(**self._now()), [*self.SENDS])
+            self.param.watch(lambda *events: self._pane.param.update(**self._now()), [*self.SHOWS])
         return self._pane
 
     def _now(self):
-        return {name: getattr(self, name) for name in self.SENDS}
+        return {name: getattr(self, name) for name in self.SHOWS}
 
     def _layout(self):
         names = "margin", "sizing_mode", "align", "width", "height", "styles", "stylesheets"
@@ -37,7 +37,7 @@ class Words(Light):
     """HTML."""
 
     object = param.String(default="")
-    SENDS = (*Light.SENDS, "object")
+    SHOWS = (*Light.SHOWS, "object")
 
     def _made(self):
         return pn.pane.HTML(**self._layout())

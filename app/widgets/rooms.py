@@ -14,11 +14,12 @@ from app.model.runs import connected_to, to_session
 from app.text import say
 from app.widgets.cards import alert, column, note, words
 from app.widgets.failure import after, attempt
+from app.widgets.form import Form
 from app.widgets.forms import Button
 from app.widgets.hold import held
 
 AROUND = (24, 28)
-AWAY = 600.0  # s after which a room gives its parts back; what was entered in it stays
+AWAY = 600.0  # s after which a Form gives its parts back: Python has what was entered in it
 
 log = logging.getLogger("tippe")
 
@@ -68,7 +69,8 @@ class Place:
         after(AWAY, partial(self._give_back, self._left))
 
     def _give_back(self, left):
-        if self._stands and left == self._left and not self.column.visible:
+        is_away = self._stands and left == self._left and not self.column.visible
+        if is_away and isinstance(self._view, Form):
             self.column.objects, self._requested, self._stands = [self._says], False, False
 
     def fill(self):

@@ -372,7 +372,7 @@ type DrawingModel = Model & Record<`data${number}`, Record<string, any>> & {
 
 // Bokeh's models, as far as they are used here.
 interface BokehModel {
-  setv(values: Record<string, any>, how?: { sync: false }): void;
+  setv(values: Record<string, any>): void;
   properties: Record<string, { change: { connect(run: () => void): void } }>;
   change: { emit(): void };
 }

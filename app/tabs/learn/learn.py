@@ -89,7 +89,14 @@ class Learn(param.Parameterized):
 
     def _find(self, steps):
         scene = self._scene
-        request = spoken(), tuple(step.name for step in steps), scene.top, scene.scales, scene.inputs["shape"]
+        request = (
+            self._found,
+            spoken(),
+            tuple(step.name for step in steps),
+            scene.top,
+            scene.scales,
+            scene.inputs["shape"],
+        )
         work = partial(self._found, scene, steps)
         run = Run(lambda run: ONCE.find(run.wait, request, work), unless_stopped(self._take))
         self._runs.begin(run, "lesson")

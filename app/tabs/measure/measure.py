@@ -191,7 +191,7 @@ class Measure:
             if run:
                 run.forget()
         self._found, self._kept, self.leave.visible = None, {}, False
-        with held():  # Bokeh refuses changes of its figures without the document's lock
+        with held():
             self.found.object, self.constants.objects = "", []
             self.home.clear()
             self.pictures.show(None)
