@@ -366,7 +366,7 @@ async def greedy(servers, few):
                     await asyncio.sleep(max(3, 9 // few))
                     beside.begin()
                     await asyncio.sleep(max(4, 10 // few))
-                    said = beside.wording()
+                    said = beside.said()
                 await asyncio.sleep(2)
                 before = server.seconds()
                 beside.begin()

@@ -6,9 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app.model.maps.kept import SHIPPED, recall
+from app.model.maps import choice
+from app.model.maps.kept import BELOW, SHIPPED, read_below, recall, ships_below
 from app.model.maps.maps import Map
-from app.model.maps.rates import POINTS, REACH, powers
+from app.model.maps.rates import POINTS, REACH, powers, rates
 from app.model.maps.solving import run
 from app.model.maps.steady import _brought, bifurcation, fixed, launch, life, steady_lines
 from app.tabs.maps.picture import MapFigure
@@ -42,6 +43,24 @@ def test_runs_that_go_on_from_one_another_lie_there_too_and_a_point_takes_no_C_J
     line = np.interp(found.swept, stable.spin[order], stable.theta[order])
     for swept in (found.up, found.down):
         np.testing.assert_allclose(swept[inside], line[inside], atol=1.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("request_", BELOW, ids=lambda request: request.body)
+def test_what_ships_of_what_is_below_a_map_is_what_is_computed(request_):
+    ships = read_below(request_)
+    for found, kept in zip((bifurcation(request_, choice.AT), rates(request_, choice.AT)), ships, strict=True):
+        assert repr(vars(found).keys()) == repr(vars(kept).keys())
+        for name, value in vars(found).items():
+            for one, other in zip(flat(value), flat(vars(kept)[name]), strict=True):
+                np.testing.assert_allclose(one, other, rtol=1e-3, atol=0.01) if one.dtype.kind == "f" else (
+                    np.testing.assert_array_equal(one, other))  # fmt: skip
+    assert ships_below(request_, choice.AT) and not ships_below(request_, (28.7, 5.7))
+
+
+def flat(value):
+    """The arrays within tuples of tuples."""
+    return [part for each in value for part in flat(each)] if isinstance(value, tuple) else [np.asarray(value)]
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ computes these anew, after a change of the physics; a test compares some of thei
 """
 
 import hashlib
+import json
 import threading
 from collections import OrderedDict
 from contextlib import suppress
@@ -17,8 +18,11 @@ from zipfile import BadZipFile
 
 import numpy as np
 
+from app.model.maps.choice import AT
 from app.model.maps.maps import AT_FIRST, UNITS, Map
+from app.model.maps.rates import Branch, OfLaw, Power, Rates, rates
 from app.model.maps.solving import Level, solve
+from app.model.maps.steady import Bifurcation, Life, Line, bifurcation
 from tippe_core import kept
 
 DATA = Path(__file__).parents[2] / "data"
@@ -29,6 +33,8 @@ SHIPPED = {
     AT_FIRST: DATA / "map-first.npz",
     replace(AT_FIRST, body=PAPERS): DATA / "map-paper-first.npz",
 }
+BELOW = {AT_FIRST: DATA / "below-first.json", replace(AT_FIRST, body=PAPERS): DATA / "below-paper-first.json"}
+"""What is below a map of AT_FIRST, at the bead's first place."""
 IN_MEMORY, AS_FILES = 64, 100_000_000  # maps; bytes, of which one of 48 x 48 cells takes some 80,000
 _folder: Path | None = None
 _memory: OrderedDict[Map, Level] = OrderedDict()
@@ -98,9 +104,35 @@ def _path(request: Map) -> Path | None:
     return _folder / f"{hashlib.sha256(f'{request!r} {kept.name()}'.encode()).hexdigest()[:32]}.npz"
 
 
+def ships_below(request: Map, place: tuple[float, float]) -> bool:
+    """Whether what is below a map at a place ships with the page."""
+    return place == AT and request in BELOW
+
+
+def read_below(request: Map) -> tuple[Bifurcation, Rates]:
+    """What ships of what is below a map."""
+    found, small = json.loads(BELOW[request].read_text(encoding="utf-8"))
+    lines = tuple(Line(np.array(spin), np.array(theta), stable) for spin, theta, stable in found.pop("lines"))
+    (t, spin, theta, *moments), times = found.pop("life"), found.pop("times")
+    life = Life(np.array(t), np.array(spin), np.array(theta), *moments)
+    arrays = {name: np.array(values) for name, values in found.items()}
+    branches = tuple(Branch(name, *map(np.array, columns)) for name, *columns in small["branches"])
+    laws, powers = (tuple(OfLaw(*each) for each in small["laws"]), tuple(Power(*each) for each in small["powers"]))
+    return (Bifurcation(lines=lines, times=(times[0], times[1]), life=life, **arrays),
+            Rates(branches=branches, laws=laws, powers=powers))  # fmt: skip
+
+
+def _plain(found: Any) -> Any:
+    """Of an array or a dataclass, for JSON."""
+    return found.tolist() if isinstance(found, np.ndarray) else vars(found)
+
+
 def main() -> None:
     for request, path in SHIPPED.items():
         _write(next(level for level in solve(request) if level.finest), path, np.float32)
+    for request, path in BELOW.items():
+        found = bifurcation(request, AT), rates(request, AT)
+        path.write_text(json.dumps(found, default=_plain, separators=(",", ":")) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from bokeh.models import ColumnDataSource, Line, MultiLine, Scatter
 
 from app.model import ends
 from app.model.colours import ACCENT, INK
+from app.model.maps.kept import read_below, ships_below
 from app.model.maps.rates import rates
 from app.model.maps.steady import bifurcation, spins_of
 from app.model.once import ONCE
@@ -144,9 +145,15 @@ class Steady:
                 fig.x_range.update(**dict(zip(("start", "end"), spins_of(request), strict=True)))
         self.says.object = note(say("maps.steady.waits"))
         wanted = bifurcation, request, *place
-        work = lambda run: (bifurcation(request, place, run.look), rates(request, place, run.look))  # noqa: E731
+        ships = ships_below(request, place)
+
+        def work(run):
+            if ships:
+                return read_below(request)
+            return bifurcation(request, place, run.look), rates(request, place, run.look)
+
         run = Run(lambda run: ONCE.find(run.wait, wanted, partial(work, run)), partial(self._done, key, x))
-        self._runs.begin(run, "maps-steady", WORK if wanted in ONCE else MAPS)
+        self._runs.begin(run, "maps-steady", WORK if ships or wanted in ONCE else MAPS)
 
     def _done(self, key, x, result):
         if key != self._key:
