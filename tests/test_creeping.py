@@ -74,6 +74,21 @@ def test_a_patch_that_halts_beside_a_closed_contact_leaves_that_closed(name, spi
     assert set(moved.regime[-100:]) == {"roll"} and np.ptp(moved.energy[-100:]) < 1e-6
 
 
+@pytest.mark.parametrize(("name", "spin", "tilt", "mu"), [
+    ("Free profile", 5, 56.4, 0.34), ("Wooden cone", 3.21, 18.9, 0.59), ("Disc on a peg", 16.81, 67.3, 0.283)])  # fmt: skip
+def test_two_patches_come_to_rest_together(name, spin, tilt, mu):
+    """(Each that halted moved the other, which slipped, halted and moved the first: "too many events".)"""
+    body = next(preset.shape for preset in PRESETS if preset.name == name)
+    time = body.scales.time
+    start = State(np.radians(tilt), 0.0, 0.0, 2 * np.pi * spin * time)
+    moved = slide(
+        body.top, start, Contensou(mu, 5e-4 / body.R), np.linspace(0, 1 / time, 501), edge=body.edge, rtol=1e-6
+    )
+    assert len(moved) == 501 and len(moved.events) < 50 and moved.supports[-1][1] == "both"
+    assert np.abs(moved.energy + moved.heat - moved.energy[0]).max() < 1e-4
+    assert np.abs(moved.slip[-50:]).max() < 1e-9 and np.ptp(moved.heat[-50:]) < 1e-6
+
+
 @pytest.mark.slow
 def test_a_patch_that_hardly_slips_does_not_halt_long_after_the_end():
     """A sphere with a heavy core that rocks in a plane, at last without any spin: it slips and sticks by turns. (Where

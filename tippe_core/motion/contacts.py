@@ -114,8 +114,7 @@ def stuck(modes: Modes, i: int) -> Modes:
 
 
 def may_stick(y: Array, modes: Modes, i: int, P: Record, C: Record) -> bool:
-    """Whether contact i could stick in this state."""
-    modes = stuck(modes, i)
+    """Whether contact i, which sticks in these modes, could do so in this state."""
     forces(arrange(y, NO_ONE, modes, P, C), modes, P, C)
     return spare(i, modes, P, C) >= 0.0
 

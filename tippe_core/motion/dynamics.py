@@ -161,6 +161,14 @@ def unknowns(w: Vector, modes: Modes, P: Record, C: Record) -> int:
     return n
 
 
+def respond(n: int, e: Vector, P: Record, C: Record) -> None:
+    """Writes into the matrix what each of n unknowns adds to each component that must vanish."""
+    for j in range(n):
+        F, w_dot = row(C.columns, j), angular((C.columns[j, 3], C.columns[j, 4], C.columns[j, 5]), e, P)
+        for r in range(n):
+            C.matrix[r, j] = component(C, F, w_dot, C.owner[r], C.part[r])
+
+
 def forces(turn: Turning, modes: Modes, P: Record, C: Record) -> float:
     """Writes the contact forces and torques and the accelerations into C, after arrange().
 
@@ -179,10 +187,8 @@ def forces(turn: Turning, modes: Modes, P: Record, C: Record) -> float:
         for axis in range(3):
             C.free[i, axis] = turns[axis] + swings[axis] - (1.0 if axis == 2 else 0.0)
             C.F[i, axis] = C.M[i, axis] = 0.0
+    respond(n, e, P, C)
     for j in range(n):
-        F, w_dot = row(C.columns, j), angular((C.columns[j, 3], C.columns[j, 4], C.columns[j, 5]), e, P)
-        for r in range(n):
-            C.matrix[r, j] = component(C, F, w_dot, C.owner[r], C.part[r])
         i, part = C.owner[j], C.part[j]
         if part == 2 and modes[i] == SLIP:
             minor = min(minor, C.matrix[j, j])

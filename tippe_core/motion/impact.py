@@ -15,11 +15,23 @@ import numpy as np
 from ..paper.search import zero
 from ..types import Array
 from . import at
-from .dynamics import SLOW, angular, arrange, column, component, cross, kinetic, row, turning
+from .dynamics import (
+    SLOW,
+    angular,
+    arrange,
+    column,
+    component,
+    cross,
+    kinetic,
+    least_along_the_line,
+    respond,
+    row,
+    turning,
+)
 from .elimination import solve_linear
 from .friction import bounds, push
 from .kinds import Modes
-from .records import NO_ONE, OPEN, Record
+from .records import BALL, NO_ONE, OPEN, STEM, STICK, Record
 from .stepper import ORDER, STAGES, A, B, error, factor, stage
 
 STOPPED = 1e-9  # relative to the speed of the impact: a smaller slip counts as 0
@@ -153,19 +165,26 @@ def rests(y: Array, i: int, P: Record, C: Record) -> bool:
     return np.sqrt(q[0] ** 2 + q[1] ** 2 + (P.law.radius * q[3]) ** 2) < REST
 
 
-def halted(y: Array, i: int, modes: Modes, P: Record, C: Record) -> None:
-    """y with the rest of the slip of contact i removed; the other contact stays closed if it is."""
-    q, j, n = moving(y, i, P, C), 1 - i, 4 if P.law.pivots else 3
-    if not P.stem or modes[j] == OPEN:
-        give_impulse(y, i, held(mobility(i, i, y, P, C), (q[0], q[1], q[2], q[3]), P.law), P, C)
-        return
-    own, by_other, of_other = mobility(i, i, y, P, C), mobility(i, j, y, P, C), mobility(j, i, y, P, C)
-    matrix, J = np.zeros((5, 5)), np.zeros(5)  # the impulse at i, and N at the other contact
-    for r in range(n):
-        matrix[r, :n] = own[r, :n]
-        matrix[r, n], matrix[n, r], J[r] = by_other[r, 2], of_other[2, r], -q[r]
-    matrix[n, n], J[n] = mobility(j, j, y, P, C)[2, 2], -C.u[j, 2]
-    solve_linear(matrix, J, n + 1)
-    give_impulse(y, j, np.array([0.0, 0.0, J[n], 0.0]), P, C)
-    J[n] = 0.0
-    give_impulse(y, i, J[:4], P, C)
+def halted(y: Array, modes: Modes, P: Record, C: Record) -> None:
+    """y without the slip of the contacts that stick in these modes; one that slips stays closed."""
+    e, w, _ = arrange(y, NO_ONE, (OPEN, OPEN), P, C)
+    both, n = modes[BALL] == modes[STEM] == STICK, 0
+    for i in range(1 + P.stem):
+        if modes[i] != OPEN:
+            n = column(C, n, i, 2, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+        if modes[i] == STICK:
+            n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+            n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
+            if P.law.pivots and not both:
+                n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    respond(n, e, P, C)
+    for j in range(n):
+        C.right[j] = -w[2] if C.part[j] == 3 else -C.u[C.owner[j], C.part[j]]
+    if both:
+        least_along_the_line(C)
+    solve_linear(C.matrix, C.right, n)
+    J = np.zeros((2, 4))
+    for j in range(n):
+        J[C.owner[j], C.part[j]] = C.right[j]
+    for i in range(1 + P.stem):
+        give_impulse(y, i, J[i], P, C)

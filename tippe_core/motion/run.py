@@ -6,7 +6,7 @@ import numpy as np
 from ..compiled import compiled
 from ..types import Array
 from . import at, contacts, stepper
-from .dynamics import arrange, forces, rates
+from .dynamics import Vector, arrange, forces, rates
 from .events import first_event, happens
 from .friction import is_point
 from .impact import halted
@@ -239,7 +239,7 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
         before = np.inf
         for i in range(1 + P.stem):
             if W.modes[i] == SLIP:
-                before = min(before, np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2]))
+                before = min(before, patch_speed(w, i, P, C))
     size = 1 / np.sqrt(S.at[at.PX] ** 2 + S.at[at.PY] ** 2 + S.at[at.PZ] ** 2 + S.at[at.PW] ** 2)
     for i in range(4):
         S.at[i] *= size
@@ -258,27 +258,45 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> Event:
     if slowest != NO_ONE:
         speed = W.step.new[at.LOG_U]
         if speed < min(np.log(before), contacts.LOG_STILL):  # near the limit of friction it may still stick
+            modes = contacts.stuck(modes, slowest)
             if contacts.may_stick(y, modes, slowest, P, C):
-                halted(y, slowest, modes, P, C)
+                halted(y, modes, P, C)
                 return HALTS, slowest
             if speed < 2 * contacts.LOG_STILL:
                 return SLIPS, slowest
     elif P.law.radius > 0.0:
-        _, w, _ = arrange(y, NO_ONE, modes, P, C)
-        for i in range(1 + P.stem):
-            speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2])
-            if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
-                left = speed * (y[at.TIME] - W.step.z[at.TIME]) / (before - speed)  # time until it vanishes
-                if left * left > max(P.tolerance, NEARLY_STILL):  # it may as well grow again
-                    continue
-                holds = contacts.may_stick(y, modes, i, P, C)
-                if holds or speed < contacts.NUDGE / 4:
-                    rates(y, NO_ONE, modes, P, C, W.step.K[0])
-                    for k in range(16):
-                        y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
-                    halted(y, i, modes, P, C)
-                    return (HALTS if holds else SLIPS), i
+        return patch_comes_to_rest(W, P, before)
     return NONE, BALL
+
+
+def patch_comes_to_rest(W: Record, P: Record, before: float) -> Event:
+    """The same for patches, two of which may come to rest together."""
+    y, C, modes, slow = W.y, W.contacts, modes_of(W), max(NEARLY_STILL, 10 * P.tolerance)
+    _, w, _ = arrange(y, NO_ONE, modes, P, C)
+    speeds = patch_speed(w, BALL, P, C), patch_speed(w, STEM, P, C)
+    for i in range(1 + P.stem):
+        if modes[i] == SLIP and speeds[i] < min(before, slow):
+            left = speeds[i] * (y[at.TIME] - W.step.z[at.TIME]) / (before - speeds[i])  # time until it vanishes
+            if left * left > max(P.tolerance, NEARLY_STILL):  # it may as well grow again
+                continue
+            rest, holds = contacts.stuck(modes, i), False
+            if modes[1 - i] == SLIP and speeds[1 - i] < slow:
+                rest = STICK, STICK
+                holds = contacts.may_stick(y, rest, i, P, C) and contacts.may_stick(y, rest, 1 - i, P, C)
+                rest = rest if holds else contacts.stuck(modes, i)
+            holds = holds or contacts.may_stick(y, rest, i, P, C)
+            if holds or speeds[i] < contacts.NUDGE / 4:
+                rates(y, NO_ONE, modes, P, C, W.step.K[0])
+                for k in range(16):
+                    y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
+                halted(y, rest, P, C)
+                return (HALTS if holds else SLIPS), i
+    return NONE, BALL
+
+
+def patch_speed(w: Vector, i: int, P: Record, C: Record) -> float:
+    """How fast a patch slips, or turns at its rim."""
+    return np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.radius * w[2])
 
 
 def sample(W: Record, P: Record, z: Array, slowest: int, t: float, rows: Array) -> None:
