@@ -75,7 +75,8 @@ def test_a_patch_that_halts_beside_a_closed_contact_leaves_that_closed(name, spi
 
 
 @pytest.mark.parametrize(("name", "spin", "tilt", "mu"), [
-    ("Free profile", 5, 56.4, 0.34), ("Wooden cone", 3.21, 18.9, 0.59), ("Disc on a peg", 16.81, 67.3, 0.283)])  # fmt: skip
+    ("Free profile", 5, 56.4, 0.34), ("Wooden cone", 3.21, 18.9, 0.59), ("Disc on a peg", 16.81, 67.3, 0.283),
+])  # fmt: skip
 def test_two_patches_come_to_rest_together(name, spin, tilt, mu):
     """(Each that halted moved the other, which slipped, halted and moved the first: "too many events".)"""
     body = next(preset.shape for preset in PRESETS if preset.name == name)
