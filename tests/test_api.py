@@ -259,6 +259,13 @@ def test_the_strongest_friction_is_the_minimum(top):
     assert strongest_friction(top) == pytest.approx(values.min(), rel=1e-13)
 
 
+@pytest.mark.parametrize("a", [1e-300, -1e-160, 1e-30, -1e150])
+def test_the_strongest_friction_of_an_extreme_top(a):
+    """I1/|a| at the equator where a is minute; 2 I1^(1/2)/|a| next to a pole where it is huge."""
+    least = 0.4 / abs(a) if abs(a) < 1 else 2 * np.sqrt(0.4) / abs(a)
+    assert strongest_friction(Top(a, 0.4, 0.41)) == pytest.approx(least, rel=1e-12)
+
+
 def test_shared_arrays_cannot_be_written():
     for part in midpoints(32):
         with pytest.raises(ValueError, match="read-only"):

@@ -16,8 +16,7 @@ from tippe_core import (
     omega2,
     pole_constants,
 )
-from tippe_core.paper.curve import rounded_f
-from tippe_core.paper.forces import forces_on_curve
+from tippe_core.paper import forces_on_curve, rounded_f
 from tippe_core.types import Array, Scalars
 
 LEAST_TIELINES = 48

@@ -31,7 +31,7 @@ from tippe_core import (
     omega3,
     turning_points,
 )
-from tippe_core.paper.curve import rounded_f
+from tippe_core.paper import rounded_f
 from tippe_core.types import Array, Indices
 
 STATE, TOP = ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"), ("a", "I1", "I3")

@@ -13,7 +13,7 @@ from app.model.region import Upper
 from app.model.setup import MOST_SECONDS, OF_LAW, ON, PATCH, SECONDS, TOYS, Push, Setup, Toy, by_hand, toy_of
 from app.model.setup import TABLES as EACH
 from tippe_core import Shape, State, Top, TopError, TruncatedSphere
-from tippe_core.paper.equations import rolling_velocity
+from tippe_core.paper import rolling_velocity
 
 PAPERS = TruncatedSphere.paper()
 TABLES = (*EACH, "three")

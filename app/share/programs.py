@@ -27,7 +27,7 @@ def python_of_surface(scene):
     which = ["lift-off", "slip"].index(plane.limit)
     share = f"(1 - np.cos(np.linspace(0, np.pi, {plane.theta.shape[1]}))) / 2"
     return f"""{HEAD}Constants, Top, f1_squared, lift_off_and_slip_tielines
-from tippe_core.paper.curve import rounded_f
+from tippe_core.paper import rounded_f
 
 tie = lift_off_and_slip_tielines(top := {scene.top!r}, {_rows(plane)}, K_R={K_R!r}, mu_s={float(scene.mu_s)!r})[{which}]
 K_J, inner, outer = tie.K_J[:, None], tie.theta_inner[:, None], tie.theta_outer[:, None]

@@ -15,8 +15,7 @@ from app.model.votes.classroom import KEY
 from app.state import validate
 from app.text import say
 from tippe_core import load_top, save_top
-from tippe_core.bodies.files import LONGEST, given, names_of
-from tippe_core.bodies.shapes import KINDS
+from tippe_core.bodies import KINDS, LONGEST, given, names_of
 
 LONGEST_NUMBER = 32
 

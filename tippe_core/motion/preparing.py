@@ -92,10 +92,11 @@ def strongest_friction(top: Top) -> float:
     p, J, q = (1.0, I1, a) if abs(a) <= 1 else (1 / a, I1 / a / a, 1.0)
     x = np.poly1d([1.0, 0.0])
     s2, arm = 1 - x**2, p - q * x
-    flat = (J + q * q * s2) * (q * s2 + x * arm) - 2 * q * q * x * arm * s2
-    c = np.array([root.real for root in flat.roots if abs(root.imag) < 1e-9 and abs(root.real) < 1])
+    flat = ((J + q * q * s2) * (q * s2 + x * arm) - 2 * q * q * x * arm * s2).coefficients
+    flat[abs(flat) < 1e-30 * abs(flat).max()] = 0.0  # of a minute a: their roots are far beyond 1
+    c = np.array([root.real for root in np.roots(flat) if abs(root.imag) < 1e-9 and abs(root.real) < 1])
     s = np.sqrt(1 - c * c)
-    thin = min((J / (q * q)) ** 0.5, 1.0)  # s next to a pole, where c alone does not tell it from 1
+    thin = min(J**0.5 / abs(q), 1.0)  # s next to a pole, where c alone does not tell it from 1
     c, s = np.append(c, [(1 - thin**2) ** 0.5, -((1 - thin**2) ** 0.5)]), np.append(s, [thin, thin])
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         return float(np.nanmin((J + (q * s) ** 2) / (abs(q * (p - q * c)) * s)))

@@ -21,9 +21,7 @@ from tippe_core import (
     TruncatedSphere,
     Turned,
 )
-from tippe_core.bodies.inside import across
-from tippe_core.bodies.shape import OneMaterial
-from tippe_core.bodies.slices import LARGEST
+from tippe_core.bodies import LARGEST, OneMaterial, across
 
 CORNER = 1 - math.sqrt(0.5)  # of the radius of a rounded edge: how far its middle is from both faces
 

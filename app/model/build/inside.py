@@ -3,7 +3,7 @@
 from dataclasses import fields
 
 from tippe_core import Shape, TruncatedSphere
-from tippe_core.bodies.inside import across
+from tippe_core.bodies import across
 
 HOLE, DISC = ("hole", "depth"), ("disc", "thickness", "height")
 INSIDE = (*HOLE, *DISC)

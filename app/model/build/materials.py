@@ -3,7 +3,7 @@
 from types import MappingProxyType
 
 from tippe_core import Shape
-from tippe_core.bodies.inside import STEEL
+from tippe_core.bodies import STEEL
 
 MATERIALS = MappingProxyType({"lime": 535.0, "oak": 675.0, "beech": 710.0, "acrylic": 1190.0, "steel": STEEL})
 """{name, a key in build.toml: density, kg/m^3}. The woods: European lime, English oak and European beech, the average

@@ -5,7 +5,7 @@ from typing import NamedTuple, TypeAlias
 
 from app.model.build.dimensions import on_rounding
 from tippe_core import BareSphere, Lathe, LoadedSphere, OrdinaryTop, Shape, StemmedSphere, TruncatedSphere, Turned
-from tippe_core.bodies.inside import across
+from tippe_core.bodies import across
 
 Point: TypeAlias = tuple[float, float]
 
