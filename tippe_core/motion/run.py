@@ -4,9 +4,9 @@ guards and on what is noted."""
 import numpy as np
 
 from ..compiled import compiled
-from ..types import Array
+from ..types import Array, Vector
 from . import at, contacts, stepper
-from .dynamics import Vector, arrange, forces, rates
+from .dynamics import arrange, forces, rates
 from .events import first_event, happens
 from .friction import is_point
 from .impact import halted
