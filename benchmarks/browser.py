@@ -76,17 +76,17 @@ WATCH = """
     plane.repainted.connect(() => ["figure", "page"].forEach((part) => painted(part, data_source.data.value[0])))
     return
   }
-  const {plane} = window.__tippe
-  const moved = new MutationObserver(() => painted("figure", Number(plane.selected.K_J.toFixed(9))))
-  moved.observe(plane.bar, {attributes: true})
+  const shown = () => Number(__tippe.plane.selected.K_J.toFixed(9)), motions = () => __tippe.top3d.motions
+  const moved = new MutationObserver(() => painted("figure", shown()))
+  moved.observe(__tippe.plane.bar, {attributes: true})
   // The page is as old as the top on its table, whose motion comes after Fig. 6 has it, in another message.
-  const {top3d} = window.__tippe, lab = models.find((m) => m.data?.properties?.frames_rough).data
+  const lab = models.find((m) => m.data?.properties?.frames_rough).data
   let waiting = []
   lab.properties.frames_rough.change.connect(() => waiting.push(
-    {value: Number(plane.selected.K_J.toFixed(9)), motions: top3d.motions.received}))
+    {value: shown(), motions: motions().received}))
   const look = () => {
     requestAnimationFrame(look)
-    const whole = waiting.findLastIndex((sent) => top3d.motions.shown > sent.motions)
+    const whole = waiting.findLastIndex((sent) => motions().shown > sent.motions)
     if (whole < 0) return
     painted("page", waiting[whole].value)
     waiting = waiting.slice(whole + 1)
