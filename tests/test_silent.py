@@ -20,10 +20,11 @@ from app.text import say
 
 pytestmark = [pytest.mark.served, pytest.mark.skipif(sys.platform == "win32", reason="no process is stopped there")]
 SILENT = "has not answered"
-# skip(ms): for the page so much more time has passed.
-SKIP = """{ const now = performance.now.bind(performance); let more = 0
+# skip(ms): for the page so much more time has passed. A request with a time limit has a fortieth of it.
+SKIP = """{ const now = performance.now.bind(performance), limit = AbortSignal.timeout.bind(AbortSignal); let more = 0
 performance.now = () => now() + more
-window.skip = (ms) => { more += ms } }"""
+window.skip = (ms) => { more += ms }
+AbortSignal.timeout = (ms) => limit(ms / 40) }"""
 
 
 @pytest.fixture
@@ -37,10 +38,11 @@ def page(chromium, page_errors):
 
 class Line:
     """A line to a server, at a port of its own. cut(): what is on it from now on is lost, in both directions, without
-    a word; a connection that is made after mend() is a new line. While the server is gone, it is refused."""
+    a word. mend(): what was cut is reset, as by a router that has forgotten it; a new connection is a new line. While
+    the server is gone, it is refused."""
 
     def __init__(self, port):
-        self.port, self._to, self._lines = free_port(), port, []
+        self.port, self._to, self._lines, self._here = free_port(), port, [], []
         self._open = threading.Event()
         self._open.set()
         self._listening = socket.create_server(("127.0.0.1", self.port))
@@ -53,6 +55,9 @@ class Line:
 
     def mend(self):
         self._open.set()
+        for here in self._here:
+            with suppress(OSError):
+                here.shutdown(socket.SHUT_RDWR)
 
     def close(self):
         self._listening.close()
@@ -70,6 +75,7 @@ class Line:
                 if not self._open.is_set():
                     lost.set()
                 self._lines.append(lost)
+                self._here.append(here)
                 for one, other in ((here, there), (there, here)):
                     threading.Thread(target=self._carry, args=(one, other, lost), daemon=True).start()
 
@@ -121,7 +127,8 @@ def test_whatever_becomes_of_its_server_the_page_says_it_and_comes_back_with_all
             line.cut()
             ask_in_vain(page, "Ice")
             says.wait_for()
-            page.evaluate("skip(25_000)")
+            with page.expect_event("requestfailed", lambda request: request.url.endswith("readyz")):
+                page.evaluate("skip(25_000)")  # and what it asks then is not waited for without end
             lost.wait_for()
             assert page.evaluate("window.mark") == 1  # nothing answers: there is nothing to load
             line.mend()
