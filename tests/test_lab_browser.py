@@ -6,7 +6,7 @@ from urllib.parse import parse_qs, urlsplit
 import numpy as np
 import pytest
 from axe import DARK, LIGHT, LOOK, contrast, violations
-from lab_page import TIME, TOPS, UNIT, arrival, come, entry, line, put
+from lab_page import TIME, TOPS, UNIT, arrival, come, entry, line, pause, put
 from playwright.sync_api import expect
 from visiting import is_seen
 
@@ -51,7 +51,7 @@ def test_it_flips_with_nothing_clicked_another_table_keeps_the_start_and_a_link_
 
 def that_it_plays_is_in_the_link_at_once(page):
     """Also where pictures follow each other so quickly that its time never rests, as the events here."""
-    page.get_by_role("slider", name="Time").press("Home")
+    pause(page)
     page.wait_for_function("/[?&]t=/.test(location.search)")
     frames = page.evaluate("""setInterval(() => dispatchEvent(new CustomEvent("tippe:clock:lab",
         { detail: { t: performance.now() / 1e5, playing: true } })), 20)""")
