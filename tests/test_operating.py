@@ -17,7 +17,7 @@ from urllib.request import urlopen
 
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
-from serving import answers, served, until
+from serving import TIDY, answers, served, until
 from wire import Closed, Visitor, get, run
 
 from app.model.runs import Pool
@@ -339,8 +339,8 @@ def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
         assert answered == "OK" and "takes the place" not in server.log
         visitor.leave()
 
-    with served(tmp_path / "log", memory=1, linger=1) as server:
+    with served(tmp_path / "log", code=TIDY, memory=1, linger=1) as server:
         run(visit())
         until(lambda: server.log.count("serving") == 2)
         assert get(server.url)[0] == 200
-        assert server.log.count("takes the place") == 1
+        assert server.log.count("with status 10, restarting") == 1

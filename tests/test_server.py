@@ -11,7 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from serving import served, until
+from serving import TIDY, served, until
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 from wire import TOKEN, Closed, Visitor, get, run
@@ -29,7 +29,7 @@ def running(tmp_path_factory):
     """Of few sessions and, at first, of few open files."""
     few = "from resource import *; setrlimit(RLIMIT_NOFILE, (256, getrlimit(RLIMIT_NOFILE)[1]))"
     few = few if sys.platform != "win32" else ""
-    with served(tmp_path_factory.mktemp("server") / "log", code=few, sessions=3, sessions_per_address=2,
+    with served(tmp_path_factory.mktemp("server") / "log", code=few + TIDY, sessions=3, sessions_per_address=2,
                 linger=1) as server:  # fmt: skip
         yield server
 

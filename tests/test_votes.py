@@ -135,8 +135,10 @@ def test_students_at_another_worker_are_counted_and_the_room_outlives_all_worker
         await asyncio.to_thread(until, lambda: server.log.count("serving") == 4, 60)
         page = await teacher(server.url, key)
         await counted(page, len(students))
-        await votes(await student(server.url, code, "f"), "upright")
+        await votes(last := await student(server.url, code, "f"), "upright")
         await counted(page, len(students) + 1)
+        for each in (page, last):
+            await each.leave()  # so that nobody has to be sent elsewhere
 
     with served(tmp_path / "log", workers=2, votes="") as server:
         run(lesson(server), 240)
