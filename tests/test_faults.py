@@ -68,7 +68,7 @@ def goes_on(page):
 
 @pytest.mark.served
 def test_graphics_memory_that_is_taken_away_is_said_and_the_picture_goes_on_when_it_is_back(lab):
-    page = lab(reduced_motion="no-preference").page  # it must go on
+    page = lab(draws=True, reduced_motion="no-preference").page  # it must go on
     page.evaluate("""() => {
         const { prototype } = WebGL2RenderingContext, { fenceSync } = prototype
         prototype.fenceSync = () => { prototype.fenceSync = fenceSync; return null }

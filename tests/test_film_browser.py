@@ -61,7 +61,7 @@ def filmed(lab):
     """filmed(**like) gives the Alone of a Lab at PACE, with the film of Share below it."""
 
     def open_(**like):
-        found = lab(**like)
+        found = lab(draws=True, **like)
         found.put(found._shown[0], speed=PACE)
         found.show(Film())
         found.page.get_by_role("button", name="GIF").wait_for()

@@ -85,7 +85,7 @@ def test_steps_scrubs_and_seeks_show_exact_frames_and_tell_python(alone):
 
 
 def test_plays_without_traffic_pauses_on_a_frame_and_lets_go_of_everything_when_removed(alone):
-    found = alone(reduced_motion="no-preference")
+    found = alone(draws=True, reduced_motion="no-preference")
     top = top_of(frames()[0])
     page = found.show(top)
     page.wait_for_function(DRAWN)
@@ -144,7 +144,7 @@ def test_the_surface_holds_what_was_sent_reads_it_off_and_tells_what_was_picked(
     surface = Surface3D(
         K_J=pack(K_J), theta=pack(theta), heights=pack(height), energy=pack(20 + K_J), theta_max=1.8, height=400,
         selected=pack([2, 0.3, 1.3]), selected_curve=pack(np.column_stack([theta[2], height[2]])))  # fmt: skip
-    found = alone(viewport={"width": 720, "height": 600})
+    found = alone(draws=True, viewport={"width": 720, "height": 600})
     page = found.show(surface)
     page.wait_for_function("window.__tippe?.surface3d?.rows === 9 && window.__tippe.surface3d.columns === 12")
     np.testing.assert_allclose(page.evaluate("window.__tippe.surface3d.theta"), theta.ravel(), rtol=1e-7)

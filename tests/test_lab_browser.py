@@ -23,7 +23,7 @@ TILT = f"""(() => {{
 
 
 def test_it_flips_with_nothing_clicked_another_table_keeps_the_start_and_a_link_opens_the_same(server, chromium):
-    with arrival(server, chromium, reduced_motion="no-preference") as page:
+    with arrival(server, chromium, draws=True, reduced_motion="no-preference") as page:
         assert urlsplit(page.url).query == ""
         assert page.get_by_role("tab", name="Lab").get_attribute("aria-selected") == "true"
         page.wait_for_function(f"{TILT} > 170")

@@ -249,7 +249,7 @@ def test_the_height_is_read_on_its_own_area_where_the_energy_leaves_no_room_over
 
 def test_three_tops_have_one_clock_what_they_keep_is_counted_to_it_and_a_photo_has_them_all(lab):
     """Jellett's constant is nearly kept while the top turns over, and lost at the end of its life."""
-    found = lab({"table": "three"})
+    found = lab({"table": "three"}, draws=True)
     page = found.show(Photo())
     page.wait_for_function(f"{TOPS}.filter((top) => top.count && top.pictures).length == 3")
     motion, time = whole_on("ordinary", start_of(*ARRIVAL[1:])), page.get_by_role("slider", name="Time")

@@ -72,7 +72,7 @@ def learn(alone):
 
 
 def test_the_derivation_is_live(alone):
-    learn, found = Learn(Explorer().scene), alone()
+    learn, found = Learn(Explorer().scene), alone(draws=True)
     learn.section = "derivation"
     learn.top.height = 400
     [katex] = Path(panel.__file__).parent.glob("dist/bundled/katex/**/katex.min.js")

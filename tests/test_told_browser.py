@@ -16,7 +16,7 @@ pytestmark = pytest.mark.served
 
 
 def test_what_it_does_is_told_in_words_and_its_trace_is_on_the_ball(lab):
-    run, page = whole_on("ordinary", start_of("Leine and Glocker's toy", 28.65, 5.73, 0.3)), lab().page
+    run, page = whole_on("ordinary", start_of("Leine and Glocker's toy", 28.65, 5.73, 0.3)), lab(draws=True).page
     moved, unit = run.trajectory, run.start.scales.time
     told, time = page.get_by_role("status", name="What the top does now"), page.get_by_role("slider", name="Time")
     for key in ("Home", "End"):

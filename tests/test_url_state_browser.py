@@ -158,7 +158,7 @@ def test_a_bad_link_says_so_and_shows_the_first_motion(server, query):
 
 
 def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
-    visit = go(server + "?v=1&KJ=6.5&mu=.4", reduced_motion="reduce")
+    visit = go(server + "?v=1&KJ=6.5&mu=.4", draws=True, reduced_motion="reduce")
     scene = solve(Top.paper(), 6.5, 10.0, 0.4, 0.9)
     visit.page.get_by_role("button", name="Share").click()
     visit.page.locator("summary", has_text="The paper’s figures of this motion").click()
@@ -194,7 +194,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     page = save("One page to mail", "HTML")
     assert page.stat().st_size < 3_200_000  # with the runs on three tables, and Bokeh
     visit.page.close()  # otherwise both are drawn all the time
-    context = chromium.new_context(offline=True, reduced_motion="no-preference")
+    context = chromium.new_context(draws=True, offline=True, reduced_motion="no-preference")
     mailed, asked = context.new_page(), []
     mailed.on("request", lambda request: asked.append(request.url))
     mailed.goto(page.as_uri())

@@ -21,6 +21,25 @@ FLAGS = [
 # Three-dimensional pictures have a sixteenth of their pixels: the processor draws them. All else is as it is.
 COARSE = "Object.defineProperty(window, 'devicePixelRatio', { get: () => 1 / 4 })"
 
+# A WebGL that takes everything, is done at once, and draws nothing: compiling the shaders of a page takes the processor
+# more than a second.
+BLANK = """{
+  const real = HTMLCanvasElement.prototype.getContext, GL = WebGL2RenderingContext
+  const parameters = { [GL.VERSION]: "WebGL 2.0", [GL.SHADING_LANGUAGE_VERSION]: "WebGL GLSL ES 3.00",
+                       [GL.VIEWPORT]: [0, 0, 1, 1], [GL.SCISSOR_BOX]: [0, 0, 1, 1] }
+  const answers = {
+    getContextAttributes: () => ({}), getParameter: (name) => parameters[name] ?? 4096, getSupportedExtensions: () => [],
+    getShaderPrecisionFormat: () => ({ precision: 23 }), getProgramParameter: (_, name) => Number(name === GL.LINK_STATUS),
+    getProgramInfoLog: () => "", getShaderInfoLog: () => "", getSyncParameter: () => GL.SIGNALED,
+    checkFramebufferStatus: () => GL.FRAMEBUFFER_COMPLETE, fenceSync: () => ({}), isContextLost: () => false }
+  const nothing = (name) => String(name).startsWith("create") ? () => ({}) : () => null
+  HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+    if (!kind.startsWith("webgl")) return real.call(this, kind, ...more)
+    const get = (own, name) => own[name] ?? GL[name] ?? nothing(name)
+    return (this.blank ??= new Proxy({ canvas: this, ...answers }, { get, set: () => true }))
+  }
+}"""
+
 # A page that moves shows some six pictures a second, each of two frames: they cost a core of the processor otherwise. A
 # single frame does not wait.
 FEW_FRAMES = """{
@@ -164,21 +183,20 @@ def launch(playwright):
 class Contexts:
     """The browser's contexts, emptied when they are closed and used again: a new one takes a second of a processor.
 
-    Three-dimensional pictures are drawn coarsely in them, unless the test names a `device_scale_factor` of its own, and
-    seldom, if the test wants motion (`reduced_motion="no-preference"`).
+    Three-dimensional pictures are drawn in them only if the test asks for it (`draws=True`), and then coarsely. They
+    move seldom, if the test wants motion (`reduced_motion="no-preference"`).
     """
 
     def __init__(self, browser):
         self._make, self._free = browser.new_context, {}
         browser.new_context, browser.new_page = self.context, self.page
 
-    def context(self, **like):
-        free = self._free.setdefault(repr(sorted(like.items())), [])
+    def context(self, draws=False, **like):
+        free = self._free.setdefault(repr((draws, sorted(like.items()))), [])
         if free:
             return free.pop()
         context = self._make(**like)
-        if "device_scale_factor" not in like:
-            context.add_init_script(COARSE)
+        context.add_init_script(COARSE if draws else BLANK)
         if like.get("reduced_motion") == "no-preference":
             context.add_init_script(FEW_FRAMES)
         keeper = context.new_page()  # without any page, the process that draws would end
