@@ -13,6 +13,8 @@ from visiting import wait
 
 from app.share.parts import Film
 
+pytestmark = pytest.mark.served
+
 PACE = 8.0  # times real time
 FAINT, DARK = 25, 235  # the least blue that counts and the lightest line, of 255
 PARTS = 10  # pictures that are looked at
@@ -46,11 +48,14 @@ async ([url, times]) => {
   return [video.duration, pictures]
 }
 """
-# In place of what writes files: notes what is drawn when a picture is added.
+# In place of what writes files: notes what is drawn when a picture is added, and takes it when `taken` says so.
 NOTES = """
 window.noted = []
 export const writerOf = async (kind, codec, canvas) => ({
-  add: () => noted.push(window.__tippe.tops("film").map(({ t, quaternion }) => [t, ...quaternion])[0]),
+  add: async () => {
+    noted.push(window.__tippe.tops("film").map(({ t, quaternion }) => [t, ...quaternion])[0])
+    await window.taken
+  },
   end: async () => new Blob([String(kind)]), stop: () => (window.isStopped = true),
 })
 """
@@ -58,10 +63,11 @@ export const writerOf = async (kind, codec, canvas) => ({
 
 @pytest.fixture
 def filmed(lab):
-    """filmed(**like) gives the Alone of a Lab at PACE, with the film of Share below it."""
+    """filmed(**like) gives the Alone of a Lab at PACE, with the film of Share below it. The top itself is drawn if that
+    says so; the line below it, which has the time, always."""
 
     def open_(**like):
-        found = lab(draws=True, **like)
+        found = lab(**like)
         found.put(found._shown[0], speed=PACE)
         found.show(Film())
         found.page.get_by_role("button", name="GIF").wait_for()
@@ -113,13 +119,14 @@ def test_a_film_has_its_length_and_each_of_its_pictures_is_of_its_time(filmed, k
 
 
 def test_without_an_encoder_the_page_says_so_and_writes_a_gif(filmed):
-    found = filmed()
+    found = filmed(draws=True)
     page, end = found.page, end_of(found)
     page.get_by_text("This browser cannot write a video here").wait_for()
     assert not page.get_by_role("button", name="WebM").is_visible()
     film = Image.open(io.BytesIO(saved(page, "GIF")))
     count = int(np.ceil(20 * end / PACE)) + 1
     assert (film.n_frames, film.size) == (count, (640, 360))
+    assert len(film.convert("RGB").crop((200, 40, 440, 240)).getcolors(100_000)) > 50  # a top
     shown, opened = np.linspace(0, count - 1, PARTS).astype(int), []
     for each in shown:
         film.seek(each)
@@ -148,9 +155,9 @@ def test_the_top_is_drawn_as_it_was_computed_for_each_time_and_a_stopped_film_is
 
     downloads = []
     page.on("download", lambda download: downloads.append(download))
-    page.evaluate("""() => { const stop = () => __tippe.tops("film").length ?
-        document.querySelectorAll("*").forEach(each => each.shadowRoot?.querySelectorAll("button").forEach(
-            (button) => button.textContent == "Stop" && button.click())) : setTimeout(stop); stop() }""")
+    page.evaluate("() => { window.taken = new Promise((go) => { window.go = go }) }")
     page.get_by_role("button", name="WebM", exact=True).click()
+    page.get_by_role("button", name="Stop", exact=True).click()
+    page.evaluate("go()")
     page.get_by_text("Stopped; nothing is saved.").wait_for()
     assert page.evaluate("isStopped") and not downloads and page.locator("[inert]").count() == 0

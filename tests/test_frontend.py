@@ -96,7 +96,7 @@ def test_plays_without_traffic_pauses_on_a_frame_and_lets_go_of_everything_when_
         window.addEventListener("tippe:clock", () => { window.ticks += 1 })
     }""")
     told = len(found.told)
-    page.wait_for_function("window.ticks > 20")
+    page.wait_for_function("window.ticks > 5")
     assert len(found.told) == told
     page.get_by_label("Pause").click()
     found.until(lambda: not top.playing and top.time > 0)
@@ -276,7 +276,7 @@ def test_a_flat_top_goes_with_the_clock_and_is_saved(flat):
     until_at(9)
     assert page.evaluate("__tippe.flat.verdict") == "rolls"
     page.get_by_label("Play").click()
-    page.wait_for_function("__tippe.flat.playing && __tippe.flat.index > 10")
+    page.wait_for_function("__tippe.flat.playing && __tippe.flat.index > 9")
     page.get_by_label("Pause").click()
     found.until(lambda: not top.playing and np.abs(T - top.time).min() < 1e-6)
     with page.expect_download() as download:
