@@ -90,9 +90,9 @@ def a_slider_asks_at_every_move_and_spin_it_is_the_stronger_the_longer_it_is_hel
                            arg=[page.locator(".strip .rest").first.element_handle(), before])  # fmt: skip
     page.get_by_role("button", name="Spin it").hover()
     page.mouse.down()
-    page.get_by_role("button", name="50 rev/s").wait_for()
+    page.get_by_role("button", name=re.compile(r"(3[2-9]|4.) rev")).wait_for()
     page.mouse.up()
-    found.until(lambda: found.lab.explorer.spin == 50)
+    found.until(lambda: 31.5 <= found.lab.explorer.spin <= 50)
     page.get_by_role("button", name="Pause").wait_for()
 
 
