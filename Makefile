@@ -14,8 +14,9 @@ serve: kernels
 kernels: $(VENV)/serve
 	$(BIN)/python -m tippe_core
 
-# One process for each core; the tests of a file stay together, because many share a server. tests/durations.py has the
-# order. To repeat an order: make test ORDER=--randomly-seed=SEED; ORDER=--shortest-first runs the shortest files first.
+# tests/conftest.py has how many processes; the tests of a file stay together, because many share a server, and
+# tests/durations.py has their order. To repeat an order: make test ORDER=--randomly-seed=SEED; ORDER=--shortest-first runs
+# the shortest files first.
 PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder \
 	--max-worker-restart 0 $(ORDER)
 

@@ -43,6 +43,12 @@ def pytest_collection_modifyitems(config, items):
     config.hook.pytest_deselected(items=long)
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers(config):
+    """Half as many again as there are processors: a test that waits for a page or a server leaves one to another."""
+    return 3 * (os.cpu_count() or 2) // 2
+
+
 def pytest_configure(config):
     references.REMAKE = config.getoption("--remake")
     references.STORE = references.REMAKE or config.getoption("--store")

@@ -80,7 +80,7 @@ def look(url, browser):
     """Opens every room in Chromium; whether all came and the page said of no error."""
     page = browser.new_page(viewport={"width": 1400, "height": 900})
     try:
-        visit = Visit(page, url)
+        visit = Visit(page, url, listens=True)
         for panel in visitors.PANELS:
             page.get_by_role("radio", name=say(f"research.panels.{panel}", "en"), exact=True).click()
             page.wait_for_function(CHOSEN, arg=panel)

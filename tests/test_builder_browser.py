@@ -151,7 +151,7 @@ def a_hole_and_a_disc_are_chosen_and_dragged_and_are_in_the_link(page):
 
 def test_a_top_is_built_saved_and_loaded(server, chromium, tmp_path):
     with chromium.new_context(draws=True, viewport={"width": 1400, "height": 1500}, reduced_motion="reduce") as context:
-        bench = Visit(context.new_page(), f"{server}?v=2&tab=build-a-top", whole=False)
+        bench = Visit(context.new_page(), f"{server}?v=2&tab=build-a-top", whole=False, listens=True)
         page = bench.page
         page.get_by_role("button", name="Save this top").wait_for()
         page.wait_for_function("Bokeh.documents[0].is_idle")

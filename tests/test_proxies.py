@@ -105,7 +105,7 @@ def page(chromium, page_errors):
 def test_a_page_comes_by_https_under_a_prefix_and_its_socket_too(name, page, tmp_path):
     with served(tmp_path / "log", prefix="/tops", proxy=1, origins="localhost:*") as server:
         with proxied(name, tmp_path, server.url.rsplit(":", 1)[1].removesuffix("/tops/app")) as root:
-            visit = Visit(page, f"{root}/tops/app?tab=lab", whole=False)
+            visit = Visit(page, f"{root}/tops/app?tab=lab", whole=False, listens=True)
             set_spin(page, "29.5")
             assert visit.sent and not visit.errors
             assert all(each.startswith((root, "blob:", "data:")) for each in visit.requests)

@@ -28,10 +28,11 @@ BLANK = """{
   const parameters = { [GL.VERSION]: "WebGL 2.0", [GL.SHADING_LANGUAGE_VERSION]: "WebGL GLSL ES 3.00",
                        [GL.VIEWPORT]: [0, 0, 1, 1], [GL.SCISSOR_BOX]: [0, 0, 1, 1] }
   const answers = {
-    getContextAttributes: () => ({}), getParameter: (name) => parameters[name] ?? 4096, getSupportedExtensions: () => [],
-    getShaderPrecisionFormat: () => ({ precision: 23 }), getProgramParameter: (_, name) => Number(name === GL.LINK_STATUS),
+    getContextAttributes: () => ({}), getParameter: (name) => parameters[name] ?? 4096, isContextLost: () => false,
+    getSupportedExtensions: () => [], getShaderPrecisionFormat: () => ({ precision: 23 }), fenceSync: () => ({}),
     getProgramInfoLog: () => "", getShaderInfoLog: () => "", getSyncParameter: () => GL.SIGNALED,
-    checkFramebufferStatus: () => GL.FRAMEBUFFER_COMPLETE, fenceSync: () => ({}), isContextLost: () => false }
+    getProgramParameter: (_, name) => Number(name === GL.LINK_STATUS),
+    checkFramebufferStatus: () => GL.FRAMEBUFFER_COMPLETE }
   const nothing = (name) => String(name).startsWith("create") ? () => ({}) : () => null
   HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
     if (!kind.startsWith("webgl")) return real.call(this, kind, ...more)
@@ -233,22 +234,19 @@ def wait(page, ready):
 
 
 class Visit:
-    """An open page, with its requests, its errors, and its websocket frames."""
+    """An open page, with its requests, its errors, and its websocket frames if it listens."""
 
-    def __init__(self, page, url, whole=True, near=False):
+    def __init__(self, page, url, whole=True, near=False, listens=False):
         """An address without a query opens the paper's rolling top. whole: wait until the whole tab is there. near:
         draw only what is nearly visible, as usual; otherwise everything is drawn, so that tests can read it."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)
-        page.on("request", lambda request: self.requests.append(request.url))
-        page.on("console", lambda message: message.type == "error" and self.errors.append(message.text))
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on(
-            "websocket",
-            lambda socket: [
-                socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")
-            ],
-        )
+        if listens:
+            page.on("request", lambda request: self.requests.append(request.url))
+            page.on("console", lambda message: message.type == "error" and self.errors.append(message.text))
+            page.on("pageerror", lambda error: self.errors.append(str(error)))
+            page.on("websocket", lambda socket: [socket.on(kind, lambda frame: self.sent.append(frame))
+                                                 for kind in ("framesent", "framereceived")])  # fmt: skip
         if not near:
             page.add_init_script(ALL_IS_NEAR)
         page.goto(of_roll(url))
