@@ -165,21 +165,24 @@ def test_backwards_in_time():
     np.testing.assert_allclose(motion.contact[-1].astype(float), 0, rtol=0, atol=1e-11)
 
 
+NEEDLES = Top(-2.138, 0.0316, 3.16e-8), Top(-2.1382383878657505, 0.031587264640263776, 3.1619859066805554e-08)
+
+
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("move", [lambda top, state: roll(top, None, [0, 1.0], state),
                                   lambda top, state: glide(top, state, [0, 1.0])])  # fmt: skip
-@pytest.mark.parametrize("top", [Top(-2.138, 0.0316, 3.16e-8),
-                                 Top(-2.1382383878657505, 0.031587264640263776, 3.1619859066805554e-08)])  # fmt: skip
+@pytest.mark.parametrize("top", NEEDLES)
 def test_a_start_that_cannot_be_resolved_is_told_of_the_start(move, top):
     """A needle upright but for 1e-9 rad; nobody gave an E."""
     with pytest.raises(TopError) as caught:
         move(top, State(1e-9, 0, 0, 2.0))
     assert (caught.value.name, caught.value.value) == ("theta", 1e-9)
     assert "change the start a little" in caught.value.remedy and "E" not in str(caught.value).split()
-    # given by constants, the error concerns the energy
-    constants = Constants.from_state(top, 1e-9, 0, 0, 2.0)
+
+
+def test_constants_that_cannot_be_resolved_are_told_of_the_energy():
     with pytest.raises(TopError) as caught:
-        roll(top, constants, [0, 1.0])
+        roll(NEEDLES[0], Constants.from_state(NEEDLES[0], 1e-9, 0, 0, 2.0), [0, 1.0])
     assert caught.value.name == "E"
 
 
