@@ -96,7 +96,7 @@ def test_plays_without_traffic_pauses_on_a_frame_and_lets_go_of_everything_when_
         window.addEventListener("tippe:clock", () => { window.ticks += 1 })
     }""")
     told = len(found.told)
-    page.wait_for_function("window.ticks > 5")
+    page.wait_for_function("window.ticks > 5 && __tippe.top3d.t > 0.2")  # so that it pauses on a later frame
     assert len(found.told) == told
     page.get_by_label("Pause").click()
     found.until(lambda: not top.playing and top.time > 0)
