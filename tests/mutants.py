@@ -210,6 +210,7 @@ class Witness:
 
     def pytest_runtest_logstart(self, nodeid):
         signal.setitimer(signal.ITIMER_VIRTUAL, 10 + 5 * self._seconds[self._name(nodeid)])
+        signal.alarm(600)  # one that waits for ever
 
     def pytest_runtest_logfinish(self):
         if not self.by and time.process_time() > self._limit:

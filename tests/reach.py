@@ -96,12 +96,15 @@ class Reach:
 
 @contextmanager
 def limited():
-    """Context that ends by a TimeoutError after SECONDS; after each s more, where the error is lost in a callback."""
+    """Context that ends by a TimeoutError after SECONDS; after each s more, where the error is lost in a callback. What
+    waits for another thread, which there is not, ends by the clock."""
     signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS, 1)
+    signal.setitimer(signal.ITIMER_REAL, 10 * SECONDS, 10)
     try:
         yield
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.setitimer(signal.ITIMER_REAL, 0)
 
 
 class Inline(Executor):
@@ -128,6 +131,7 @@ def measured(part, file):
     import coverage
 
     signal.signal(signal.SIGVTALRM, stop)
+    signal.signal(signal.SIGALRM, stop)
     concurrent.futures.ThreadPoolExecutor = Inline
     measure = coverage.Coverage(data_file=None, include=[f"{ROOT}/{part}/*"], config_file=False)
     reach = Reach(measure)
