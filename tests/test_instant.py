@@ -142,10 +142,8 @@ def test_forces_and_accelerations_in_all_modes(top, edge, law):
         assert minor == pytest.approx(minors[0] if len(owners) == 1 else min(1.0, *minors, 1.0), rel=1e-7)
 
 
-@pytest.mark.parametrize(("drag", "mu_s", "over"), [(0.2, 0.2, STEM), (-1.0, 0.402, BALL), (0.2, 0.4, None)])
-def test_two_contacts_that_hold_share_the_friction_between_them(drag, mu_s, over):
-    """The least of it; where that is more than one contact has, the nearest to it with which it is not. Drag is any
-    torque here."""
+def holding(drag, mu_s):
+    """Both contacts hold, and a torque, which drag may be, turns the top about the line between them."""
     here = Instant(LEANING, Coulomb(mu_s), EDGES["rounded"], on_both=True)
     C, modes, here.P.drag = here.C, (STICK, STICK), drag
     turn = arrange(here.y, NO_ONE, modes, here.P, C)
@@ -153,54 +151,66 @@ def test_two_contacts_that_hold_share_the_friction_between_them(drag, mu_s, over
     near(C.height, [0.0, 0.0], 1e-12)
     assert forces(turn, modes, here.P, C) == 1.0
     w_dot, v_dot, F, M, *_ = here.solve(modes, 0 * C.u, 0 * C.height)
-    needs = np.hypot(*F[:, :2].T) / F[:, 2]
-    assert [need > mu_s for need in needs] == [i == over for i in range(2)]
-    if over is not None:
-        along = np.append(here.rho[STEM] - here.rho[BALL], 0.0)[:2]
-        along /= np.linalg.norm(along)
-        held = F[over, :2]
-        ways = np.roots([1.0, 2 * held @ along, held @ held - (mu_s * F[over, 2]) ** 2])
-        least = min(ways, key=abs)
-        F[over, :2], F[1 - over, :2] = held + least * along, F[1 - over, :2] - least * along
-    near(C.F, F)
     near(C.M, M)
     near(C.w_dot, w_dot)
     near(C.v_dot, v_dot)
+    return here, F
+
+
+def test_two_contacts_that_hold_have_the_least_friction_between_them():
+    here, F = holding(0.2, 0.4)
+    assert (np.hypot(*F[:, :2].T) < 0.4 * F[:, 2]).all()
+    near(here.C.F, F)
+
+
+@pytest.mark.parametrize(("drag", "mu_s", "over"), [(0.2, 0.2, STEM), (-1.0, 0.402, BALL)])
+def test_where_the_least_friction_is_too_much_for_one_contact_the_other_takes_what_is_more(drag, mu_s, over):
+    """The nearest to the least with which it is not too much."""
+    here, F = holding(drag, mu_s)
+    needs = np.hypot(*F[:, :2].T) / F[:, 2]
+    assert [need > mu_s for need in needs] == [i == over for i in range(2)]
+    along = (here.rho[STEM] - here.rho[BALL])[:2]
+    along /= np.linalg.norm(along)
+    held = F[over, :2]
+    ways = np.roots([1.0, 2 * held @ along, held @ held - (mu_s * F[over, 2]) ** 2])
+    least = min(ways, key=abs)
+    F[over, :2], F[1 - over, :2] = held + least * along, F[1 - over, :2] - least * along
+    near(here.C.F, F)
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("modes", [(SLIP, OPEN), (OPEN, SLIP), (SLIP, SLIP), (STICK, SLIP), (OPEN, OPEN)])
-def test_rates_are_those_of_the_body_and_its_energy_is_heat(law, modes):
+def test_rates_are_those_of_the_body_and_its_energy_is_heat(law):
     """With log|u| and the direction of a slip too, in place of the velocity."""
     here = Instant(LEANING, LAWS[law], EDGES["rounded"])
     P, C, y, out = here.P, here.C, here.y, np.zeros(16)
-    for slowest in {NO_ONE, BALL if modes[BALL] == SLIP else STEM if modes[STEM] == SLIP else NO_ONE}:
-        arrange(y, NO_ONE, modes, P, C)
-        z, u, height = y.copy(), C.u.copy(), C.height.copy()
-        if slowest != NO_ONE:
-            z[at.LOG_U], z[at.BETA] = np.log(np.hypot(*u[slowest, :2])), np.arctan2(u[slowest, 1], u[slowest, 0])
-        rates(z, slowest, modes, P, C, out)
-        near(C.u, u)
-        w_dot, v_dot, *_ = here.solve(modes, u, height)
-        speeds = [np.hypot(np.hypot(*u[i, :2]), P.law.radius * here.w[2]) for i in range(2) if modes[i] == SLIP]
-        g = np.prod([speed / (speed + SLOW) for speed in speeds]) if P.law.mu_s > 0 else 1.0
-        dy = out / g
-        p, p_dot = y[[at.PX, at.PY, at.PZ, at.PW]], dy[[at.PX, at.PY, at.PZ, at.PW]]
-        frame = 2 * rb.product(p_dot, p * [-1, -1, -1, 1])
-        near(frame, np.append(here.w - here.w @ here.axis * here.axis, 0.0))
-        near(dy[at.CHI], here.w @ here.axis)
-        near(dy[[at.LX, at.LY, at.LZ]], here.inertia @ w_dot + np.cross(here.w, here.inertia @ here.w))
-        near(dy[[at.X, at.Y, at.Z, at.TIME, at.VZ]], [*C.G[[0, 1, 3 - 1]], 1.0, v_dot[2]])
-        moved = C.G[:3] @ v_dot + here.w @ (here.inertia @ w_dot) + C.G[2]  # the energy of motion, and of height
-        near(dy[at.HEAT], -moved)
-        if slowest == NO_ONE:
-            near(dy[[at.VX, at.VY]], v_dot[:2])
-            continue
-        rho, rho_dot = here.rho[slowest], here.rho_dot[slowest]
-        u_dot = (v_dot + np.cross(w_dot, rho) + np.cross(here.w, rho_dot))[:2]
-        slip = u[slowest, :2]
-        near(dy[at.LOG_U], u_dot @ slip / (slip @ slip))
-        near(dy[at.BETA], (slip[0] * u_dot[1] - slip[1] * u_dot[0]) / (slip @ slip))
+    for modes in ((SLIP, OPEN), (OPEN, SLIP), (SLIP, SLIP), (STICK, SLIP), (OPEN, OPEN)):
+        for slowest in {NO_ONE, *(i for i in range(2) if modes[i] == SLIP)}:
+            arrange(y, NO_ONE, modes, P, C)
+            z, u, height = y.copy(), C.u.copy(), C.height.copy()
+            if slowest != NO_ONE:
+                z[at.LOG_U], z[at.BETA] = np.log(np.hypot(*u[slowest, :2])), np.arctan2(u[slowest, 1], u[slowest, 0])
+            rates(z, slowest, modes, P, C, out)
+            near(C.u, u)
+            w_dot, v_dot, *_ = here.solve(modes, u, height)
+            speeds = [np.hypot(np.hypot(*u[i, :2]), P.law.radius * here.w[2]) for i in range(2) if modes[i] == SLIP]
+            g = np.prod([speed / (speed + SLOW) for speed in speeds]) if P.law.mu_s > 0 else 1.0
+            dy = out / g
+            p, p_dot = y[[at.PX, at.PY, at.PZ, at.PW]], dy[[at.PX, at.PY, at.PZ, at.PW]]
+            frame = 2 * rb.product(p_dot, p * [-1, -1, -1, 1])
+            near(frame, np.append(here.w - here.w @ here.axis * here.axis, 0.0))
+            near(dy[at.CHI], here.w @ here.axis)
+            near(dy[[at.LX, at.LY, at.LZ]], here.inertia @ w_dot + np.cross(here.w, here.inertia @ here.w))
+            near(dy[[at.X, at.Y, at.Z, at.TIME, at.VZ]], [*C.G[[0, 1, 3 - 1]], 1.0, v_dot[2]])
+            moved = C.G[:3] @ v_dot + here.w @ (here.inertia @ w_dot) + C.G[2]  # the energy of motion, and of height
+            near(dy[at.HEAT], -moved)
+            if slowest == NO_ONE:
+                near(dy[[at.VX, at.VY]], v_dot[:2])
+                continue
+            rho, rho_dot = here.rho[slowest], here.rho_dot[slowest]
+            u_dot = (v_dot + np.cross(w_dot, rho) + np.cross(here.w, rho_dot))[:2]
+            slip = u[slowest, :2]
+            near(dy[at.LOG_U], u_dot @ slip / (slip @ slip))
+            near(dy[at.BETA], (slip[0] * u_dot[1] - slip[1] * u_dot[0]) / (slip @ slip))
 
 
 def test_the_energy_of_motion():
