@@ -9,7 +9,6 @@ import functools
 import json
 import multiprocessing
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -206,10 +205,17 @@ def prepare(part):
 def tests_of(part):
     """The files of tests that may run through it: those of the app, or the others."""
     for file in sorted((ROOT / "tests").glob("test_*.py")):
-        if not file.stem.endswith("browser") and bool(
-            re.search(r"^ *(from|import) app\b", file.read_text(encoding="utf-8"), re.M)
-        ) == (part == "app/model"):
+        if not file.stem.endswith("browser") and imports_app(file) == (part == "app/model"):
             yield file
+
+
+def imports_app(file):
+    return any(
+        name.split(".")[0] == "app"
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        for name in ([node.module or ""] if isinstance(node, ast.ImportFrom)
+                     else [each.name for each in node.names] if isinstance(node, ast.Import) else [])
+    )  # fmt: skip
 
 
 def find(part, processes, only):
