@@ -98,7 +98,7 @@ def limited():
     """Context that ends by a TimeoutError after SECONDS; after each s more, where the error is lost in a callback. What
     waits for another thread, which there is not, ends by the clock."""
     signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS, 1)
-    signal.setitimer(signal.ITIMER_REAL, 10 * SECONDS, 10)
+    signal.setitimer(signal.ITIMER_REAL, 3 * SECONDS, 1)
     try:
         yield
     finally:
