@@ -37,6 +37,8 @@ SHARE = 0.25
 """Of the other changes; those of functions in docs/equations.md are all tried."""
 MINUTES = 2
 """Of the processor for all tests of one change."""
+STORES = {"kept", "ahead", "__main__"}
+"""Files that compute nothing: they compile and store, which test_compiled.py tries in processes of its own."""
 FIRST = 8
 """So many tests are tried before the files of all the others are read."""
 
@@ -127,7 +129,7 @@ def sample(share):
     what is known after some time is a sample, too."""
     drawn, printed = [], equations()
     files = {path for path, _ in printed}
-    for path in sorted(core().paths.values()):
+    for path in sorted(path for path in core().paths.values() if Path(path).stem not in STORES):
         each = sorted(mutants(path), key=lambda mutant: mutant.draw)
         drawn += [mutant for i, mutant in enumerate(each)
                   if i < EACH or mutant.draw < share

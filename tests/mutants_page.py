@@ -36,6 +36,54 @@ EXPLAINED = {
         "scene",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
+    ("grip", "lean = float(np.angle(c * (w1 + 1j / c * w2)))"): "c is 1 or -1 there, its own inverse",
+    ("phase", "return angle + np.pi * turns / np.copysign(1.0, offset)"): "1 and -1 are their own inverses",
+    ("contacts", "if n > 0 and last / now <= 0.0:"): "a quotient has the sign of the product",
+    (
+        "limits",
+        "falls, rises = (side / N_near(low, side, curve) > 0, side * N_near(high, side, curve) < 0)",
+    ): "the same",
+    ("limits", "low = 1e-09 / high"): "where a search beside a pole begins",
+    (
+        "limits",
+        "side, distances = (1.0, V) if V[i] <= M[i] else (+1.0, M)",
+    ): "what is found so is not certain, and then the exact search is asked: the same, more slowly",
+    ("limits", "even = points * 2 <= counts[way] <= points + 1"): "a path is gone through once more, with the same end",
+    (
+        "wells",
+        "slope = (N_near(x + h, side, curve) - N_near(x - h, side, curve)) * (2 * h)",
+    ): "its sign is the same, and its size is that of the first of Newton's steps, which end at the same zero",
+    (
+        "wells",
+        "if closer == 8 and min(abs(y1), abs(y2)) > 0.01 / most:",
+    ): "when a search for two zeros that are not there is given up",
+    (
+        "wells",
+        "return NoMotionError('E', float(E), 'E >= {least:.10g} for this top, K_J = {K_J:.10g} and K_R = {K_R:.10g}', "
+        "'Below it is no motion, at it the steady precession of least energy.', code='no-motion', "
+        "least=no_less(E_least), K_J=float(exact.K_J) - 0.0, K_R=float(exact.K_R) + 0.0)",
+    ): "the wording of an error, -0 for 0",
+    (
+        "share",
+        "found, paths, far = (np.empty((2, len(a), len(part))), np.empty((2, POINTS + MORE - 2, 6)), np.empty(2))",
+    ): "working space for a case that no top of the tests comes to",
+    (
+        "share",
+        "far[way] = max(near[way] - MUCH / reach[way], 0.0) if j > 0 else 0.0",
+    ): "how far a path is followed at first; it is followed farther where that is not enough",
+    (
+        "rocking",
+        "x = brentq(lambda x: period(x) - T, first, last, xtol=1e-15 / max(abs(first), abs(last)), rtol=1e-14)",
+    ): "a tolerance beside rtol, which ends the search first",
+    ("impact", "h = 0.01 / scale"): "the length of the first step, which its error corrects",
+    (
+        "run",
+        "W.steady = attracts > STIFF_DIRECTION / abs(grows) and abs(beta - S.z[at.BETA]) < SLIPS_LITTLE",
+    ): "from which stiffness on a direction is kept steady, whose own error is below the tolerance either way",
+    (
+        "many",
+        "last = entries['name'][-1] if status == ENDED and len(entries) else +1",
+    ): "no reason and no end is 1, either",
     ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",

@@ -3,7 +3,7 @@
 import ast
 
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
-CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below", "accept", "error",
+CONTROL = {"solve", "bisect", "zero", "enclose", "least", "resolved", "harmonics", "length", "first_below", "accept", "error",
            "factor"}  # fmt: skip
 
 

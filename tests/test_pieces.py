@@ -1,6 +1,8 @@
 """Pieces of the core, each against what it stands for: where no whole motion that takes a second would tell that one is
 wrong."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import rigid_body as rb
@@ -160,6 +162,17 @@ def test_whole_nutations_are_skipped_as_the_exact_motion_goes():
     assert angles.sum() == pytest.approx(moved.phi[4], abs=1e-8)
     assert angles[0] - angles[1] + y[at.CHI] == pytest.approx(moved.psi[4], abs=1e-8)
     assert not skip(y, angles, row(1), row(2), end)
+
+
+def test_rolling_that_skips_nutations_ends_as_the_exact_motion():
+    begin = State(1.0, 0.3, 0.2, 6.0, x=0.1, y=0.2)
+    end = 12.3 * Rolling(PAPER, None, begin).period
+    exact = roll(PAPER, None, [0.0, end], begin)
+    rolls = replace(begin, vx=float(exact.velocity[0, 0]), vy=float(exact.velocity[0, 1]))
+    now = slide_many(PAPER, rolls, Coulomb(5.0), end, rtol=1e-11).state_end
+    np.testing.assert_allclose([now.theta, now.x, now.y], [exact.theta[1], *exact.com[1, :2]], rtol=0, atol=1e-7)
+    for mine, other in ((now.phi, exact.phi[1]), (now.psi, exact.psi[1])):
+        np.testing.assert_allclose(np.exp(1j * mine), np.exp(1j * other), rtol=0, atol=1e-7)
 
 
 def test_a_short_motion_keeps_what_it_should():
