@@ -259,18 +259,18 @@ def test_an_impulse_changes_momentum_and_what_it_takes_is_heat(top):
 
 
 @pytest.mark.parametrize("law", ["coulomb", "patch", "patch without torque"])
-@pytest.mark.parametrize("modes", [(SLIP, OPEN), (OPEN, SLIP), (SLIP, SLIP)])
+@pytest.mark.parametrize("modes", [(STICK, OPEN), (OPEN, STICK), (STICK, SLIP), (SLIP, STICK)])
 def test_a_halt_takes_the_rest_of_a_slip_and_leaves_the_other_contact_on_the_table(law, modes):
     here = Instant(LEANING, LAWS[law], EDGES["rounded"])
     P, C, y = here.P, here.C, here.y.copy()
-    i = BALL if modes[BALL] == SLIP else STEM
-    impact.halted(y, i, modes, P, C)
+    i = modes.index(STICK)
+    impact.halted(y, modes, P, C)
     (v, w), (v0, w0) = velocities(y, here), velocities(here.y, here)
     near(v + np.cross(w, here.rho[i]), np.zeros(3))
     if P.law.pivots:
         near(w[2], 0.0)
     other = np.zeros(3)
-    if modes == (SLIP, SLIP):
+    if SLIP in modes:
         near((v + np.cross(w, here.rho[1 - i]))[2], 0.0)
         # what is left of the angular momentum about contact i is due to a vertical impulse at the other
         apart, about = here.rho[1 - i] - here.rho[i], here.inertia @ (w - w0) - np.cross(here.rho[i], v - v0)
@@ -282,6 +282,18 @@ def test_a_halt_takes_the_rest_of_a_slip_and_leaves_the_other_contact_on_the_tab
     if not P.law.pivots:
         near(turned[2], 0.0)
     near(y[at.HEAT], energy_of(here.y, here) - energy_of(y, here))
+
+
+@pytest.mark.parametrize("law", ["coulomb", "patch", "patch without torque"])
+def test_two_contacts_that_halt_together_rest(law):
+    here = Instant(LEANING, LAWS[law], EDGES["rounded"], on_both=True)
+    y = here.y.copy()
+    y[[at.LX, at.LY, at.LZ]] += [0.2, -0.3, 0.1]
+    begins = energy_of(y, here)
+    impact.halted(y, (STICK, STICK), here.P, here.C)
+    v, w = velocities(y, here)
+    near([v + np.cross(w, rho) for rho in here.rho], np.zeros((2, 3)), 1e-12)
+    near(y[at.HEAT], begins - energy_of(y, here))
 
 
 IMPACTS = {
