@@ -2,9 +2,9 @@
 
 In statements that compute something one sign and one factor are changed, one at a time, in a process of its own, and
 the tests that run through the statement (reach.py) are run until one fails: first those that noticed a change near it,
-then those that are quick and run through little else. data/mutants.jsonl keeps what each change came to,
-docs/mutants.md tells it (mutants_page.py). What is known is not tried again, unless the function that was changed or
-the test that noticed it is another now.
+then those that are quick and run through little else, then the same with other parameters. data/mutants.jsonl keeps
+what each change came to, docs/mutants.md tells it (mutants_page.py). What is known is not tried again, unless the
+function that was changed or the test that noticed it is another now.
 """
 
 import argparse
@@ -29,7 +29,7 @@ import pytest
 from fingerprint import core
 from mutants_page import EXPLAINED, LOG, PAGE, functions_in, logged, page
 from mutation import sites
-from reach import KEPT, OPTIONS, PARTS, ROOT, in_turn, marks, prepare, statements
+from reach import KEPT, OPTIONS, PARTS, ROOT, SECONDS, in_turn, marks, prepare, statements
 
 EACH = 2
 """So many changes of each file are tried at least."""
@@ -198,20 +198,25 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
 
 class Witness:
-    """A pytest plugin that runs these tests in this order and keeps the first that fails. It ends a process in which
-    one takes some times as long as it did."""
+    """A pytest plugin that runs these tests in this order, or their other parameters, and keeps the first that fails.
+    It ends a process in which one takes some times as long as it did."""
 
-    def __init__(self, seconds, limit):
-        self._seconds, self._limit, self.by, self.all = seconds, limit, "", True
+    def __init__(self, seconds, limit, others):
+        self._seconds, self._limit, self._others, self.by, self.all = seconds, limit, others, "", True
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_modifyitems(self, items):
-        place = {test: i for i, test in enumerate(self._seconds)}
-        mine = {place[name]: item for item in items if (name := self._name(item.nodeid)) in place}
-        items[:] = [mine[i] for i in sorted(mine)]
+        named = {name_of(item.nodeid): item for item in items}
+        if self._others:
+            functions = {test.partition("[")[0]: None for test in self._seconds}
+            mine = [name for function in functions for name in named
+                    if name.partition("[")[0] == function and name not in self._seconds]  # fmt: skip
+        else:
+            mine = [name for name in self._seconds if name in named]
+        items[:] = [named[name] for name in mine]
 
     def pytest_runtest_logstart(self, nodeid):
-        signal.setitimer(signal.ITIMER_VIRTUAL, 10 + 5 * self._seconds[self._name(nodeid)])
+        signal.setitimer(signal.ITIMER_VIRTUAL, 10 + 5 * self._seconds.get(name_of(nodeid), SECONDS))
         signal.alarm(600)  # one that waits for ever
 
     def pytest_runtest_logfinish(self):
@@ -221,13 +226,13 @@ class Witness:
 
     def pytest_runtest_logreport(self, report):
         if report.failed:
-            self.by = self._name(report.nodeid).partition("[")[0]
+            self.by = name_of(report.nodeid).partition("[")[0]
 
     pytest_collectreport = pytest_runtest_logreport
 
-    @staticmethod
-    def _name(nodeid):
-        return nodeid.removeprefix("tests/")
+
+def name_of(nodeid):
+    return nodeid.removeprefix("tests/")
 
 
 def noticed(limit, mutant):
@@ -235,20 +240,21 @@ def noticed(limit, mutant):
     limit: of these."""
     tests = tests_of(mutant)
     sys.meta_path.insert(0, Changed(mutant.path, source_of(mutant)))
-    for some in (tests[:FIRST], tests[FIRST:]):
-        by, whole = tried(dict(some), limit)
+    for some, others in ((tests[:FIRST], False), (tests[FIRST:], False), (tests, True)):
+        by, whole = tried(dict(some), limit, others)
         if by or not whole:
             break
     return by, bool(tests) and whole, round(time.process_time(), 1)
 
 
-def tried(tests, limit):
+def tried(tests, limit, others):
+    """(the first of these tests that fails, or of their other parameters, or ""; whether all were run)"""
     files = dict.fromkeys(ROOT / "tests" / test.partition("::")[0] for test in tests)
     paths = [str(file) for file in files if file.exists()]
     if not paths:
         return "", True
-    witness = Witness(tests, limit)
-    status = pytest.main(["-x", *OPTIONS, *paths], plugins=[witness])
+    witness = Witness(tests, limit, others)
+    status = pytest.main(["-x", *OPTIONS, "-m", "not served", *paths], plugins=[witness])
     return witness.by or ("an error" if status in (3, 4) else ""), witness.all
 
 
