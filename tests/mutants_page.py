@@ -84,6 +84,20 @@ EXPLAINED = {
         "many",
         "last = entries['name'][-1] if status == ENDED and len(entries) else +1",
     ): "no reason and no end is 1, either",
+    (
+        "nutation",
+        "s_eta, c_eta, dt_deta = (c_eta, s_eta, dt_deta / (-1.0) ** np.arange(len(dt_deta)))",
+    ): "1 and -1 are their own inverses",
+    (
+        "impact",
+        "I.W[:], I.start[:], I.scale, I.J[:], I.allowed[:] = (W, start, scale, 0.0, DIGITS / scale)",
+    ): "the tolerance of a step, far below that of the tests either way",
+    ("impact", "g = speed * (speed + SLOW * I.scale)"): "by which variable an impact is followed, to the same end",
+    ("errors", "array = np.asarray(numbers(field, value, finite) - 0.0)"): "the sign of a zero",
+    (
+        "run",
+        "S.new[at.TIME] = end if S.h == end + y[at.TIME] else y[at.TIME] + S.h",
+    ): "the last digit of the time at the end of a step that is cut",
     ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",

@@ -8,24 +8,33 @@ import pytest
 import rigid_body as rb
 import sliding_body as sb
 from cases import LOADED, PAPER
+from scipy.optimize import brentq
 
 from tippe_core import (
+    Constants,
     Contensou,
     Coulomb,
     State,
+    Top,
+    TopError,
     TruncatedSphere,
     Viscous,
+    f,
     outcome,
+    pushed,
     roll,
     slide_many,
     steady_precessions,
     tielines,
 )
+from tippe_core.bodies.slices import Frustum, crossings
+from tippe_core.classify import LEANS, UPRIGHT, judged
 from tippe_core.linear import tumbling, tumbling_modes
 from tippe_core.motion import at, impact, preparing
+from tippe_core.motion.contacts import soften
 from tippe_core.motion.implicit import slowness
 from tippe_core.motion.periodic import skip
-from tippe_core.motion.records import BALL, IMPACT, LAW, MOTION, OPEN, SLIP, STICK, new
+from tippe_core.motion.records import BALL, IMPACT, LAW, MOTION, OPEN, SLIP, STEM, STICK, new
 from tippe_core.motion.rolling import Rolling
 from tippe_core.motion.rolling_part import RollingPart
 from tippe_core.motion.series import sine
@@ -217,3 +226,63 @@ def test_rolling_about_tumbling_is_that_of_the_body_in_space(theta):
     found = tumbling_modes(LOADED, Coulomb(0.3), theta), np.linalg.eigvals(np.array(columns).T)
     mine, other = (sorted(each, key=lambda x: (round(x.imag, 4), x.real)) for each in found)
     np.testing.assert_allclose(mine, other, rtol=0, atol=1e-5)
+
+
+# ---- arrays, heights, ends ----
+
+
+def test_f_on_three_axes_is_f_at_each_place():
+    K_J, K_R, theta = np.linspace(-2, 6, 3)[:, None, None], np.array([8.0, 10.0])[:, None], np.linspace(0.3, 2.8, 4)
+    found = f(theta, PAPER, Constants(K_J, K_R, 27.0))
+    each = [[[f(x, PAPER, Constants(J, R, 27.0)) for x in theta] for R in (8.0, 10.0)] for J in np.linspace(-2, 6, 3)]
+    np.testing.assert_allclose(found, each, rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.parametrize("edge", [None, EDGE])
+def test_the_height_of_g_above_what_touches(edge):
+    P = preparing.problem(PAPER, Viscous(0.3), edge, (0.0, 0.0), 1e-9)
+    for theta in (0.3, 1.5, 2.9):
+        axis = np.array([0.0, -np.sin(theta), np.cos(theta)])
+        contacts = [sb.sphere(PAPER), *([sb.edge(PAPER, *edge[:2])] if edge else [])]
+        assert preparing.height(P, theta) == pytest.approx(-min(contact(axis)[2] for contact in contacts), abs=1e-12)
+
+
+def test_the_judge_of_an_end():
+    near = np.pi - UPRIGHT
+    assert [judged(False, "ball", *each, False) for each in ((0.0, 0.19), (0.0, 0.21), (near + 0.01, 3.1))] == [
+        "upright", "moving", "inverted"]  # fmt: skip
+    leans = [(1.0, 1.0 + LEANS - 0.01), (1.0, 1.0 + LEANS + 0.01), (near - 0.1, 3.1)]
+    assert [judged(False, "ball", *each, False) for each in leans] == ["leaning", "moving", "moving"]
+    assert judged(False, "ball", 2.0, 1.0, True) == "rolling" and judged(False, "stem", 2.0, 1.0, True) == "stem"
+
+
+def test_a_point_that_is_pushed_may_be_as_low_as_the_table():
+    state, edge = State(0.7, 0.0, 0.0, 2.0), EDGE
+    pushed(PAPER, state, (0.1, 0.0, 0.0), (0.0, 0.0, -1.0), Viscous(0.3), edge)
+    with pytest.raises(TopError) as caught:
+        pushed(PAPER, state, (0.1, 0.0, 0.0), (0.0, 0.0, -1.2), Viscous(0.3), edge)
+    assert caught.value.name == "at" and caught.value.numbers["least"] == pytest.approx(-1.0, abs=1e-12)
+
+
+def test_surfaces_cross_where_they_are_equally_wide():
+    """Two that are nearly the same cone; also where a coefficient is small, but not nothing."""
+    one = Frustum(low=0.0, high=0.05, r_low=0.01, r_high=0.02)
+    other = Frustum(low=0.0, high=0.05, r_low=0.0100003, r_high=0.01999986)
+    (z,) = crossings(one, other, 0.0, 0.05)
+    assert one.radius(z) == pytest.approx(other.radius(z), rel=1e-12)
+
+
+def test_two_contacts_that_meet_softly_stay_closed():
+    """Both u_z vanish, by vertical impulses alone."""
+    top, edge = Top(-0.4, 0.7, 0.3), (0.3, 1.3, 0.1)
+    P, C = preparing.problem(top, Viscous(0.3), edge, (0.0, 0.0), 1e-3), new(MOTION).contacts
+    theta = brentq(lambda theta: preparing.gap(P, np.cos(theta), np.sin(theta)), 1.5, 3.0, xtol=1e-15)
+    y = preparing.y_of(P, theta, np.sin(theta / 2), np.cos(theta / 2), np.exp(0.4j), 0.4, (2e-3, 0.0, 0.0), 0.01 + 0j,
+                       0j, 0.0, 0.0)  # fmt: skip
+    y[at.Z], y[at.VZ] = 1 - top.a * np.cos(theta), -3e-3
+    before = y.copy()
+    assert np.abs(impact.moving(y, STEM, P, C)[2]) > 1e-3
+    soften(y, np.array([True, True]), P, C)
+    assert [impact.moving(y, i, P, C)[2] for i in (BALL, STEM)] == pytest.approx([0.0, 0.0], abs=1e-14)
+    np.testing.assert_array_equal(y[[at.VX, at.VY]], before[[at.VX, at.VY]])
+    assert y[at.LZ] == pytest.approx(before[at.LZ], abs=1e-14) and y[at.VZ] != before[at.VZ]
