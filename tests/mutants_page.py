@@ -98,6 +98,7 @@ EXPLAINED = {
         "run",
         "S.new[at.TIME] = end if S.h == end + y[at.TIME] else y[at.TIME] + S.h",
     ): "the last digit of the time at the end of a step that is cut",
+    ("dynamics", "far = np.sqrt(dx * dx + dy / dy)"): "the length of n, which changes nothing",
     ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
@@ -147,11 +148,13 @@ def page(lines, chosen):
     yield ("Would the tests notice a wrong formula? `make proof` changes one sign and one factor (times for divided "
            "by, a power by one) in statements that compute something: in all of the functions that have an equation of "
            "the paper ([where](equations.md)), and in a quarter of the others of the core and the model, drawn by "
-           "their text. Each change is tried in a process of its own, with the tests that run through the function, "
-           "the quickest first, until one fails; kernels run as Python. Iterations and tests of convergence are left "
-           "out, because a wrong step there is slow or refused. `tests/data/mutants.jsonl` has each change with its "
-           "date, its commit, a hash of the function and the test that noticed it; `tests/data/reach.json` has the "
-           "tests of each function.")  # fmt: skip
+           "their text. Each change is tried in a process of its own, with the tests that run through the statement, "
+           "until one fails: first those that noticed a change near it, then those that are quick and run through "
+           "little else, then the same with other parameters. Kernels run as Python where the core is changed, "
+           "compiled where the model is. Searches and tests of convergence are left out, because a wrong step there "
+           "is slow or refused, and so is what only compiles and stores. `tests/data/mutants.jsonl` has each change "
+           "with its date, its commit, a hash of the function and the test that noticed it; `tests/data/reach.json` "
+           "has the tests of each statement that take less than 8 s so.")  # fmt: skip
     yield ""
     yield ("Two libraries were looked at. mutmut wraps each function in a switch between its variants, through which "
            "the innermost loops would go, and has no sample by statement. cosmic-ray runs one command for all tests, "
@@ -159,9 +162,11 @@ def page(lines, chosen):
            "and number, so that they do not outlive a move.")  # fmt: skip
     yield ""
     when = dates([line for line, _ in now])
+    took = [line["seconds"] for line, _ in now if line.get("seconds")]
+    mean = f" A change took {sum(took) / len(took):.1f} s of the processor on average." if took else ""
     yield (f"**Of the {len(lines):,} changes that were tried, {len(now):,} are of today’s code, {when}, and the tests "
            f"noticed {noticed:,} of these; {len(old):,} are of functions or statements that are no more, "
-           f"and count as not tried.** Today’s code has {chosen:,} such changes.")  # fmt: skip
+           f"and count as not tried.** Today’s code has {chosen:,} such changes.{mean}")  # fmt: skip
     yield ""
     yield from table([(line, file) for line, (_, file) in now])
     yield ""

@@ -233,6 +233,7 @@ def find(part, processes, only):
                 lines.setdefault(path, {}).setdefault(line, []).extend(test.removeprefix("tests/") for test in tests)
     if only:
         add(lines, seconds, kept[part], {file.name for file in files})
+    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}  # the other part may be new meanwhile
     kept[part] = packed(seconds, chosen(seconds, lines))
     KEPT.write_text(json.dumps(kept, ensure_ascii=False, separators=(",", ":")) + "\n", encoding="utf-8")
 
