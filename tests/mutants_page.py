@@ -99,6 +99,10 @@ EXPLAINED = {
         "S.new[at.TIME] = end if S.h == end + y[at.TIME] else y[at.TIME] + S.h",
     ): "the last digit of the time at the end of a step that is cut",
     ("dynamics", "far = np.sqrt(dx * dx + dy / dy)"): "the length of n, which changes nothing",
+    (
+        "smooth",
+        "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else exact_zero(P, -one, here, True)",
+    ): "the search finds the pole to the last digit, too",
     ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
