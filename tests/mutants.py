@@ -1,7 +1,8 @@
 """Would a wrong formula be noticed? python tests/mutants.py (hours; --share, --minutes for less).
 
 In statements that compute something one sign and one factor are changed, one at a time, in a process of its own, and
-the tests that run through the function are run until one fails, the quickest first (reach.py). data/mutants.jsonl keeps
+the tests that run through the statement (reach.py) are run until one fails: first those that noticed a change near it,
+then those that are quick and run through little else, then the same with other parameters. data/mutants.jsonl keeps
 what each change came to, docs/mutants.md tells it (mutants_page.py). What is known is not tried again, unless the
 function that was changed or the test that noticed it is another now.
 """
@@ -14,25 +15,32 @@ import hashlib
 import importlib.abc
 import importlib.util
 import json
+import os
 import re
 import signal
 import subprocess
 import sys
 import time
+from collections import Counter, defaultdict
 from dataclasses import dataclass
 from pathlib import Path
 
+import pytest
 from fingerprint import core
 from mutants_page import EXPLAINED, LOG, PAGE, functions_in, logged, page
 from mutation import sites
-from reach import KEPT, OPTIONS, PARTS, ROOT, in_turn, prepare
+from reach import KEPT, OPTIONS, PARTS, ROOT, SECONDS, in_turn, marks, prepare, statements
 
 EACH = 2
 """So many changes of each file are tried at least."""
 SHARE = 0.25
 """Of the other changes; those of functions in docs/equations.md are all tried."""
-MINUTES = 5
+MINUTES = 2
 """Of the processor for all tests of one change."""
+STORES = {"kept", "ahead", "__main__"}
+"""Files that compute nothing: they compile and store, which test_compiled.py tries in processes of its own."""
+FIRST = 8
+"""So many tests are tried before the files of all the others are read."""
 
 
 @dataclass(frozen=True)
@@ -49,10 +57,20 @@ class Mutant:
         return next(part for part in PARTS if self.path.startswith(part))
 
     @functools.cached_property
-    def place(self):
-        """(name of its function, hash of that)."""
-        return next((node.name, mark) for node, mark in functions_in(core(), self.path)
+    def function(self):
+        """(it, its hash)"""
+        return next((node, mark) for node, mark in functions_in(core(), self.path)
                     if node.lineno <= self.line <= node.end_lineno)  # fmt: skip
+
+    @property
+    def place(self):
+        """(name of its function, hash of that)"""
+        return self.function[0].name, self.function[1]
+
+    @property
+    def statement(self):
+        """Its number in the function."""
+        return next(i for i, (line, _) in enumerate(statements(self.function[0])) if line == self.line)
 
     @property
     def key(self):
@@ -111,7 +129,7 @@ def sample(share):
     what is known after some time is a sample, too."""
     drawn, printed = [], equations()
     files = {path for path, _ in printed}
-    for path in sorted(core().paths.values()):
+    for path in sorted(path for path in core().paths.values() if Path(path).stem not in STORES):
         each = sorted(mutants(path), key=lambda mutant: mutant.draw)
         drawn += [mutant for i, mutant in enumerate(each)
                   if i < EACH or mutant.draw < share
@@ -121,16 +139,46 @@ def sample(share):
 
 @functools.cache
 def reach(part):
+    """What reach.py has kept of a part, the tests of each statement of a function by its hash, and in how many
+    functions each test is."""
     kept = json.loads(KEPT.read_text(encoding="utf-8"))[part]
-    return [tuple(each) for each in kept["tests"]], kept["reached"]
+    by_mark = marks(kept)
+    width = Counter(test for numbers in by_mark.values() for test in {t for n in numbers for t in kept["sets"][n]})
+    return kept, by_mark, width
 
 
 def tests_of(mutant):
-    """[(test, seconds that it takes)]; of a function that is new, those of the others of its file."""
-    tests, reached = reach(mutant.part)
-    of_file = reached.get(mutant.path, {})
-    numbers = of_file.get(mutant.place[0]) or {number for each in of_file.values() for number in each}
-    return sorted((tests[number] for number in numbers), key=lambda test: test[1])
+    """[(test, seconds that it takes)] in the order in which they are tried; of a function that is new, those of the one
+    that had its name, or of its file."""
+    kept, by_mark, width = reach(mutant.part)
+    name, mark = mutant.place
+    if mark in by_mark:
+        numbers = {by_mark[mark][mutant.statement]}
+    else:
+        of_file = kept["reached"].get(mutant.path, {})
+        near = of_file[name].values() if name in of_file else (each for of in of_file.values() for each in of.values())
+        numbers = {number for each in near for number in each}
+    tests = {test for number in numbers for test in kept["sets"][number]}
+    here, there = witnesses()[mark], witnesses()[mutant.path]
+
+    def rank(test):
+        name, seconds = kept["tests"][test]
+        name = name.partition("[")[0]
+        return -here[name], -min(there[name], 3), (seconds + 0.3) * width[test]
+
+    return [tuple(kept["tests"][test]) for test in sorted(tests, key=rank)]
+
+
+@functools.cache
+def witnesses():
+    """{hash of a function, or path: Counter of the tests that noticed a change in it}"""
+    found = defaultdict(Counter)
+    paths = {mark: path for path in core().paths.values() for _, mark in functions_in(core(), path)}
+    for line in logged():
+        if line.get("code") in paths and line["test"]:
+            for place in (line["code"], paths[line["code"]]):
+                found[place][line["by"]] += 1
+    return found
 
 
 class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
@@ -150,39 +198,64 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
 
 class Witness:
-    """A pytest plugin that keeps the first test that fails, and ends a process in which one takes ten times as long as
-    it did."""
+    """A pytest plugin that runs these tests in this order, or their other parameters, and keeps the first that fails.
+    It ends a process in which one takes some times as long as it did."""
 
-    def __init__(self, seconds):
-        self._seconds, self.by, self.all = seconds, "", True
+    def __init__(self, seconds, limit, others):
+        self._seconds, self._limit, self._others, self.by, self.all = seconds, limit, others, "", True
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items):
+        named = {name_of(item.nodeid): item for item in items}
+        if self._others:
+            functions = {test.partition("[")[0]: None for test in self._seconds}
+            mine = [name for function in functions for name in named
+                    if name.partition("[")[0] == function and name not in self._seconds]  # fmt: skip
+        else:
+            mine = [name for name in self._seconds if name in named]
+        items[:] = [named[name] for name in mine]
 
     def pytest_runtest_logstart(self, nodeid):
-        signal.setitimer(signal.ITIMER_VIRTUAL, 20 + 10 * self._seconds.get(nodeid.removeprefix("tests/"), 0))
+        signal.setitimer(signal.ITIMER_VIRTUAL, 10 + 5 * self._seconds.get(name_of(nodeid), SECONDS))
+        signal.alarm(600)  # one that waits for ever
 
     def pytest_runtest_logfinish(self):
-        if not self.by and time.process_time() > 60 * MINUTES:
+        if not self.by and time.process_time() > self._limit:
             self.all = False
             raise KeyboardInterrupt
 
     def pytest_runtest_logreport(self, report):
         if report.failed:
-            self.by = report.nodeid.split("/")[-1].split("[")[0]
+            self.by = name_of(report.nodeid).partition("[")[0]
 
     pytest_collectreport = pytest_runtest_logreport
 
 
-def noticed(mutant):
-    """(the test that fails with this change, "" if none does; whether all were run)."""
-    import pytest
+def name_of(nodeid):
+    return nodeid.removeprefix("tests/")
 
-    tests = dict(tests_of(mutant))
-    if not tests:
-        return "", False
+
+def noticed(limit, mutant):
+    """(the test that fails with this change, "" if none does; whether all were run; the seconds that it took).
+    limit: of these."""
+    tests = tests_of(mutant)
     sys.meta_path.insert(0, Changed(mutant.path, source_of(mutant)))
-    witness = Witness(tests)
-    paths = [str(ROOT / "tests" / test) for test in tests if (ROOT / "tests" / test.split("::")[0]).exists()]
-    status = pytest.main(["-x", *OPTIONS, *paths], plugins=[witness])
-    return witness.by or ("an error" if status not in (0, 2) else ""), witness.all
+    for some, others in ((tests[:FIRST], False), (tests[FIRST:], False), (tests, True)):
+        by, whole = tried(dict(some), limit, others)
+        if by or not whole:
+            break
+    return by, bool(tests) and whole, round(time.process_time(), 1)
+
+
+def tried(tests, limit, others):
+    """(the first of these tests that fails, or of their other parameters, or ""; whether all were run)"""
+    files = dict.fromkeys(ROOT / "tests" / test.partition("::")[0] for test in tests)
+    paths = [str(file) for file in files if file.exists()]
+    if not paths:
+        return "", True
+    witness = Witness(tests, limit, others)
+    status = pytest.main(["-x", *OPTIONS, "-m", "not served", *paths], plugins=[witness])
+    return witness.by or ("an error" if status in (3, 4) else ""), witness.all
 
 
 @functools.cache
@@ -224,15 +297,18 @@ def run(part, options):
     start, before = time.monotonic(), known(options.again)
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
     todo = (mutant for mutant in sample(options.share)
-            if mutant.part == part and mutant.key not in before
+            if mutant.part == part and mutant.key not in before and options.only in mutant.path
             and time.monotonic() - start < 60 * options.minutes)  # fmt: skip
-    for mutant, answer in in_turn(noticed, todo):
-        by, whole = answer or ("no end", True)
+    for mutant, answer in in_turn(functools.partial(noticed, 60 * options.limit), todo, options.processes):
+        by, whole, seconds = answer or ("no end", True, None)
         line = {"file": Path(mutant.path).stem, "before": mutant.before, "after": mutant.after, "by": by,
                 "test": digest_of(by), "rest": not by and not whole, "code": mutant.place[1], "commit": commit.strip(),
-                "date": str(datetime.date.today())}  # fmt: skip
+                "date": str(datetime.date.today()), "seconds": seconds}  # fmt: skip
         with LOG.open("a", encoding="utf-8") as log:
             log.write(json.dumps(line, ensure_ascii=False) + "\n")
+        if line["test"]:
+            for place in (mutant.place[1], mutant.path):
+                witnesses()[place][by] += 1
         print(f"{mutant.path}: {by or 'SURVIVES'} {mutant.after}", flush=True)
 
 
@@ -240,7 +316,10 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--share", type=float, default=SHARE, help="of the changes that no printed equation has")
     options.add_argument("--minutes", type=float, default=float("inf"), help="for each part; then write the page")
+    options.add_argument("--limit", type=float, default=MINUTES, help="minutes of the processor for each change")
+    options.add_argument("--processes", type=int, default=os.cpu_count(), help="so many at once; else one a core")
     options.add_argument("--again", action="store_true", help="try anew what no test noticed")
+    options.add_argument("--only", default="", metavar="PATH", help="changes of files with this in their path")
     options.add_argument("--part", choices=PARTS, help="this one alone, without the page")
     chosen = options.parse_args()
     if chosen.part:

@@ -36,6 +36,73 @@ EXPLAINED = {
         "scene",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
+    ("grip", "lean = float(np.angle(c * (w1 + 1j / c * w2)))"): "c is 1 or -1 there, its own inverse",
+    ("phase", "return angle + np.pi * turns / np.copysign(1.0, offset)"): "1 and -1 are their own inverses",
+    ("contacts", "if n > 0 and last / now <= 0.0:"): "a quotient has the sign of the product",
+    (
+        "limits",
+        "falls, rises = (side / N_near(low, side, curve) > 0, side * N_near(high, side, curve) < 0)",
+    ): "the same",
+    ("limits", "low = 1e-09 / high"): "where a search beside a pole begins",
+    (
+        "limits",
+        "side, distances = (1.0, V) if V[i] <= M[i] else (+1.0, M)",
+    ): "what is found so is not certain, and then the exact search is asked: the same, more slowly",
+    ("limits", "even = points * 2 <= counts[way] <= points + 1"): "a path is gone through once more, with the same end",
+    (
+        "wells",
+        "slope = (N_near(x + h, side, curve) - N_near(x - h, side, curve)) * (2 * h)",
+    ): "its sign is the same, and its size is that of the first of Newton's steps, which end at the same zero",
+    (
+        "wells",
+        "if closer == 8 and min(abs(y1), abs(y2)) > 0.01 / most:",
+    ): "when a search for two zeros that are not there is given up",
+    (
+        "wells",
+        "return NoMotionError('E', float(E), 'E >= {least:.10g} for this top, K_J = {K_J:.10g} and K_R = {K_R:.10g}', "
+        "'Below it is no motion, at it the steady precession of least energy.', code='no-motion', "
+        "least=no_less(E_least), K_J=float(exact.K_J) - 0.0, K_R=float(exact.K_R) + 0.0)",
+    ): "the wording of an error, -0 for 0",
+    (
+        "share",
+        "found, paths, far = (np.empty((2, len(a), len(part))), np.empty((2, POINTS + MORE - 2, 6)), np.empty(2))",
+    ): "working space for a case that no top of the tests comes to",
+    (
+        "share",
+        "far[way] = max(near[way] - MUCH / reach[way], 0.0) if j > 0 else 0.0",
+    ): "how far a path is followed at first; it is followed farther where that is not enough",
+    (
+        "rocking",
+        "x = brentq(lambda x: period(x) - T, first, last, xtol=1e-15 / max(abs(first), abs(last)), rtol=1e-14)",
+    ): "a tolerance beside rtol, which ends the search first",
+    ("impact", "h = 0.01 / scale"): "the length of the first step, which its error corrects",
+    (
+        "run",
+        "W.steady = attracts > STIFF_DIRECTION / abs(grows) and abs(beta - S.z[at.BETA]) < SLIPS_LITTLE",
+    ): "from which stiffness on a direction is kept steady, whose own error is below the tolerance either way",
+    (
+        "many",
+        "last = entries['name'][-1] if status == ENDED and len(entries) else +1",
+    ): "no reason and no end is 1, either",
+    (
+        "nutation",
+        "s_eta, c_eta, dt_deta = (c_eta, s_eta, dt_deta / (-1.0) ** np.arange(len(dt_deta)))",
+    ): "1 and -1 are their own inverses",
+    (
+        "impact",
+        "I.W[:], I.start[:], I.scale, I.J[:], I.allowed[:] = (W, start, scale, 0.0, DIGITS / scale)",
+    ): "the tolerance of a step, far below that of the tests either way",
+    ("impact", "g = speed * (speed + SLOW * I.scale)"): "by which variable an impact is followed, to the same end",
+    ("errors", "array = np.asarray(numbers(field, value, finite) - 0.0)"): "the sign of a zero",
+    (
+        "run",
+        "S.new[at.TIME] = end if S.h == end + y[at.TIME] else y[at.TIME] + S.h",
+    ): "the last digit of the time at the end of a step that is cut",
+    ("dynamics", "far = np.sqrt(dx * dx + dy / dy)"): "the length of n, which changes nothing",
+    (
+        "smooth",
+        "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else exact_zero(P, -one, here, True)",
+    ): "the search finds the pole to the last digit, too",
     ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
@@ -85,11 +152,13 @@ def page(lines, chosen):
     yield ("Would the tests notice a wrong formula? `make proof` changes one sign and one factor (times for divided "
            "by, a power by one) in statements that compute something: in all of the functions that have an equation of "
            "the paper ([where](equations.md)), and in a quarter of the others of the core and the model, drawn by "
-           "their text. Each change is tried in a process of its own, with the tests that run through the function, "
-           "the quickest first, until one fails; kernels run as Python. Iterations and tests of convergence are left "
-           "out, because a wrong step there is slow or refused. `tests/data/mutants.jsonl` has each change with its "
-           "date, its commit, a hash of the function and the test that noticed it; `tests/data/reach.json` has the "
-           "tests of each function.")  # fmt: skip
+           "their text. Each change is tried in a process of its own, with the tests that run through the statement, "
+           "until one fails: first those that noticed a change near it, then those that are quick and run through "
+           "little else, then the same with other parameters. Kernels run as Python where the core is changed, "
+           "compiled where the model is. Searches and tests of convergence are left out, because a wrong step there "
+           "is slow or refused, and so is what only compiles and stores. `tests/data/mutants.jsonl` has each change "
+           "with its date, its commit, a hash of the function and the test that noticed it; `tests/data/reach.json` "
+           "has the tests of each statement that take less than 8 s so.")  # fmt: skip
     yield ""
     yield ("Two libraries were looked at. mutmut wraps each function in a switch between its variants, through which "
            "the innermost loops would go, and has no sample by statement. cosmic-ray runs one command for all tests, "
@@ -97,9 +166,11 @@ def page(lines, chosen):
            "and number, so that they do not outlive a move.")  # fmt: skip
     yield ""
     when = dates([line for line, _ in now])
+    took = [line["seconds"] for line, _ in now if line.get("seconds")]
+    mean = f" A change took {sum(took) / len(took):.1f} s of the processor on average." if took else ""
     yield (f"**Of the {len(lines):,} changes that were tried, {len(now):,} are of today’s code, {when}, and the tests "
            f"noticed {noticed:,} of these; {len(old):,} are of functions or statements that are no more, "
-           f"and count as not tried.** Today’s code has {chosen:,} such changes.")  # fmt: skip
+           f"and count as not tried.** Today’s code has {chosen:,} such changes.{mean}")  # fmt: skip
     yield ""
     yield from table([(line, file) for line, (_, file) in now])
     yield ""

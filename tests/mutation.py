@@ -3,8 +3,8 @@
 import ast
 
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
-CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below", "accept", "error",
-           "factor"}  # fmt: skip
+CONTROL = {"solve", "bisect", "zero", "enclose", "least", "resolved", "harmonics", "length", "first_below", "accept",
+           "error", "factor"}  # fmt: skip
 
 
 def sites(tree):

@@ -1,13 +1,14 @@
-"""Which tests run through which function of the core and the model: python tests/reach.py writes data/reach.json, from
+"""Which tests run through which statement of the core and the model: python tests/reach.py writes data/reach.json, from
 which mutants.py takes the tests that it runs. For the core its kernels run as Python, and its own tests are tried; for
 the model kernels are compiled. A test that takes more than 8 s of the processor so is left out."""
 
+import argparse
+import ast
 import concurrent.futures
 import functools
 import json
 import multiprocessing
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -32,12 +33,12 @@ EACH = 2
 """So many tests of one function are kept of those that reach a line: those with the quickest parameters."""
 
 
-def in_turn(call, arguments):
-    """(argument, call(argument), or None where a signal ended it), each in a child of this process, one a core: a
-    child has the libraries that are imported here, and what it changes goes with it."""
+def in_turn(call, arguments, processes=None):
+    """(argument, call(argument), or None where a signal ended it), each in a child of this process, one a core or so
+    many at once: a child has the libraries that are imported here, and what it changes goes with it."""
     fork, waiting, running = multiprocessing.get_context("fork"), iter(arguments), {}
     while True:
-        for argument in islice(waiting, os.cpu_count() - len(running)):
+        for argument in islice(waiting, (processes or os.cpu_count()) - len(running)):
             mine, its = fork.Pipe(duplex=False)
             child = fork.Process(target=_answer, args=(its, call, argument))
             child.start()
@@ -94,18 +95,21 @@ class Reach:
 
 @contextmanager
 def limited():
-    """Context that ends by a TimeoutError after SECONDS; after each s more, where the error is lost in a callback."""
+    """Context that ends by a TimeoutError after SECONDS; after each s more, where the error is lost in a callback. What
+    waits for another thread, which there is not, ends by the clock."""
     signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS, 1)
+    signal.setitimer(signal.ITIMER_REAL, 3 * SECONDS, 1)
     try:
         yield
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.setitimer(signal.ITIMER_REAL, 0)
 
 
 class Inline(Executor):
     """In place of threads: a signal cannot end what another thread computes."""
 
-    def __init__(self, *_):
+    def __init__(self, *_, **__):
         pass
 
     def submit(self, call, /, *given, **options):
@@ -126,13 +130,16 @@ def measured(part, file):
     import coverage
 
     signal.signal(signal.SIGVTALRM, stop)
+    signal.signal(signal.SIGALRM, stop)
     concurrent.futures.ThreadPoolExecutor = Inline
     measure = coverage.Coverage(data_file=None, include=[f"{ROOT}/{part}/*"], config_file=False)
     reach = Reach(measure)
     measure.start()
     marks = "not served" if part == "app/model" else "not served and not slow"
-    pytest.main([*OPTIONS, "-m", marks, str(file)], plugins=[reach])
+    status = pytest.main([*OPTIONS, "-m", marks, str(file)], plugins=[reach])
     measure.stop()
+    if status not in (0, 1, 5):  # as where a file cannot be read with what is put in place of threads
+        raise RuntimeError(f"{file.name}: pytest ended with {status}")
     data = measure.get_data()
     lines = {
         Path(path).relative_to(ROOT).as_posix(): {
@@ -152,16 +159,26 @@ def tried(part, file):
         return None
 
 
+def statements(function):
+    """[(its first line, its last without those of statements in it)] of a function, in their order."""
+    inside = (each for each in ast.walk(function) if isinstance(each, ast.stmt) and each is not function)
+    for each in sorted(inside, key=lambda each: (each.lineno, each.col_offset)):
+        body = getattr(each, "body", None)
+        yield each.lineno, max(each.lineno, body[0].lineno - 1) if body else each.end_lineno
+
+
 def chosen(seconds, lines):
-    """{path: {function: its tests}}, in the order of their times."""
+    """{path: {function: {its hash: [the tests of each of its statements]}}}, the tests in the order of their times."""
     found = {}
     for path, of_file in sorted(lines.items()):
-        for function, _ in functions_in(core(), path):
-            inside = [tests for line, tests in of_file.items() if function.lineno < line <= function.end_lineno]
-            quick = {test for tests in inside for test in quickest(tests, seconds)}
-            found.setdefault(path, {}).setdefault(function.name, set()).update(quick)
-    return {path: {name: sorted(tests, key=seconds.get) for name, tests in of_file.items() if tests}
-            for path, of_file in found.items()}  # fmt: skip
+        for function, mark in functions_in(core(), path):
+            reached = [{test for line in range(first, last + 1) for test in of_file.get(line, ())}
+                       for first, last in statements(function)]  # fmt: skip
+            if any(reached):
+                found.setdefault(path, {}).setdefault(function.name, {})[mark] = [
+                    tuple(quickest(tests, seconds)) for tests in reached
+                ]
+    return found
 
 
 def quickest(tests, seconds):
@@ -188,38 +205,83 @@ def prepare(part):
 def tests_of(part):
     """The files of tests that may run through it: those of the app, or the others."""
     for file in sorted((ROOT / "tests").glob("test_*.py")):
-        if not file.stem.endswith("browser") and bool(
-            re.search(r"^ *(from|import) app\b", file.read_text(encoding="utf-8"), re.M)
-        ) == (part == "app/model"):
+        if not file.stem.endswith("browser") and imports_app(file) == (part == "app/model"):
             yield file
 
 
-def find(part):
-    """Measures one part, and puts it into the file."""
+def imports_app(file):
+    return any(
+        name.split(".")[0] == "app"
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        for name in ([node.module or ""] if isinstance(node, ast.ImportFrom)
+                     else [each.name for each in node.names] if isinstance(node, ast.Import) else [])
+    )  # fmt: skip
+
+
+def find(part, processes, only):
+    """Measures one part, and puts it into the file. only: files of tests; of the others is what was found before."""
     prepare(part)
+    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
+    files = [file for file in tests_of(part) if not only or file.name in only]
     seconds, lines = {}, {}
-    for file, found in in_turn(functools.partial(tried, part), tests_of(part)):
-        print(file.name, "did not end" if found is None else f"{len(found[0])} tests", flush=True)
+    for file, found in in_turn(functools.partial(tried, part), files, processes):
+        print(file.name, "DID NOT END" if found is None else f"{len(found[0])} tests", flush=True)
         took, reached = found or ({}, {})
-        seconds |= took
+        seconds |= {test.removeprefix("tests/"): each for test, each in took.items()}
         for path, of_file in reached.items():
             for line, tests in of_file.items():
-                lines.setdefault(path, {}).setdefault(line, []).extend(tests)
-    reached = chosen(seconds, lines)
-    tests = sorted({test for of_file in reached.values() for each in of_file.values() for test in each})
-    number = {test: i for i, test in enumerate(tests)}
-    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
-    kept[part] = {
-        "tests": [[test.removeprefix("tests/"), seconds[test]] for test in tests],
-        "reached": {path: {name: [number[test] for test in each] for name, each in of_file.items()}
-                    for path, of_file in reached.items()},
-    }  # fmt: skip
+                lines.setdefault(path, {}).setdefault(line, []).extend(test.removeprefix("tests/") for test in tests)
+    if only:
+        add(lines, seconds, kept[part], {file.name for file in files})
+    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}  # the other part may be new meanwhile
+    kept[part] = packed(seconds, chosen(seconds, lines))
     KEPT.write_text(json.dumps(kept, ensure_ascii=False, separators=(",", ":")) + "\n", encoding="utf-8")
 
 
-if __name__ == "__main__":
-    if sys.argv[1:]:
-        find(sys.argv[1])
+def add(lines, seconds, kept, files):
+    """Adds what is kept of tests in other files than these, as far as a function is as it was."""
+    numbered, by_mark = kept["tests"], marks(kept)
+    for path in core().paths.values():
+        for function, mark in functions_in(core(), path):
+            for (line, _), number in zip(statements(function), by_mark.get(mark, ()), strict=False):
+                for test, took in (numbered[each] for each in kept["sets"][number]):
+                    if test.partition("::")[0] not in files:
+                        seconds[test] = took
+                        lines.setdefault(path, {}).setdefault(line, []).append(test)
+
+
+def marks(kept):
+    """{hash of a function: the number of the set of tests of each of its statements}"""
+    return {mark: numbers for of_file in kept["reached"].values() for of_name in of_file.values()
+            for mark, numbers in of_name.items()}  # fmt: skip
+
+
+def packed(seconds, reached):
+    """As it is kept: each set of tests once, since most statements of a function have the same."""
+    sets = sorted({tests for of_file in reached.values() for of_name in of_file.values()
+                   for each in of_name.values() for tests in each})  # fmt: skip
+    names = sorted({test for each in sets for test in each})
+    number, place = {test: i for i, test in enumerate(names)}, {tests: i for i, tests in enumerate(sets)}
+    return {
+        "tests": [[test, seconds[test]] for test in names],
+        "sets": [[number[test] for test in tests] for tests in sets],
+        "reached": {path: {name: {mark: [place[tests] for tests in each] for mark, each in of_name.items()}
+                           for name, of_name in of_file.items()} for path, of_file in reached.items()},
+    }  # fmt: skip
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--part", choices=PARTS, help="this one alone")
+    options.add_argument("--processes", type=int, default=os.cpu_count(), help="so many at once; else one a core")
+    options.add_argument("--only", nargs="+", default=[], metavar="FILE", help="measure these files of tests alone")
+    chosen = options.parse_args()
+    if chosen.part:
+        find(chosen.part, chosen.processes, chosen.only)
     else:
         for each in PARTS:
-            subprocess.run([sys.executable, __file__, each], check=True)
+            subprocess.run([sys.executable, __file__, *sys.argv[1:], "--part", each], check=True)
+
+
+if __name__ == "__main__":
+    main()

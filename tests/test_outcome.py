@@ -140,6 +140,27 @@ def test_a_start_with_energy_for_both_ends_says_so():
     assert not outcome(PAPER, State(0.1, 2.0, 0, between.omega3)).certain
 
 
+@pytest.mark.parametrize("moves", ["theta_dot", "vx", "vy"])
+def test_a_start_is_certain_up_to_the_energy_of_the_barrier(moves):
+    """The energy of the body in space, in motion that leaves C_J as it is: at most the maximum of V_J in between."""
+    C_J, theta = 0.6325, 0.6
+    s, c = np.sin(theta), np.cos(theta)
+    I_eff = PAPER.I1 * s * s + PAPER.I3 * (c - PAPER.a) ** 2
+    rest = {"theta": theta, "theta_dot": 4e-3, "omega2": C_J * s / I_eff, "omega3": C_J * (c - PAPER.a) / I_eff,
+            "vx": 3e-3, "vy": -2e-3}  # fmt: skip
+
+    def energy(speed):
+        q, omega, velocity, com = sb.first_instant(PAPER, State(**rest | {moves: speed}))
+        along = sb.matrix(q).T @ omega
+        return (along**2 @ [PAPER.I1, PAPER.I1, PAPER.I3] + velocity @ velocity) / 2 + com[2] - (1 - PAPER.a)
+
+    barrier = jellett_potential(np.linspace(theta, 1.5, 1001), PAPER, C_J).max()
+    speed = brentq(lambda speed: energy(speed) - barrier, 0.0, 1.0)
+    for share, certain in ((0.999, True), (1.001, False)):
+        found = outcome(PAPER, State(**rest | {moves: share * speed}))
+        assert found.certain == certain and found.C_J == pytest.approx(C_J, rel=1e-12)
+
+
 @pytest.mark.parametrize(("name", "call"), [
     ("state", lambda: outcome(PAPER, 3)),
     ("C_J", lambda: steady_states(PAPER, np.nan)),

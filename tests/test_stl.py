@@ -9,9 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from test_shapes import SOLID, turned_volume
 
-from tippe_core import (
-    Lathe,
-)
+from tippe_core import Ball, Lathe
 
 # --- STL ---
 
@@ -55,6 +53,13 @@ def assert_closed_and_outward(normals, corners):
 @pytest.mark.parametrize("name", SOLID)
 def test_stl_is_closed_and_outward(name):
     assert_closed_and_outward(*read_stl(SOLID[name].stl(48)))
+
+
+@pytest.mark.parametrize("sides", [12, 48, 96])
+def test_an_arc_has_as_many_pieces_as_the_circle_about_the_axis(sides):
+    """A ball: half of them from pole to pole, each ring of two triangles a side, one at a pole."""
+    normals, _ = read_stl(Ball(R=0.01, M=0.01).stl(sides))
+    assert len(normals) == 2 * sides * (sides // 2 - 1)
 
 
 @given(st.lists(st.tuples(st.floats(0.001, 0.03), st.floats(0, 0.01)), min_size=1, max_size=8), st.floats(-0.9, 0.9))
