@@ -600,13 +600,13 @@ if __name__ == "__main__":
 # s. Twenty did not all have Maps within a minute. Ten who open another room every 2 s: moves p95 501 ms, /liveness 534.
 # The aims (twenty within 4 s, 250 ms, 0.5 s) are missed, by most in Maps, whose runs begin while others are made.
 #
-# 2026-11-29, 06:22 to 06:30, nothing else running, greedy, each way after 9 s, for 10 s, a mover of Explore (alone 29 to
-# 43 ms at p95). p95 and longest ms of a move, and the longest /liveness, beside 1, 2, 4 and 16 pages:
+# 2026-11-29, 06:22 to 06:30, nothing else running, greedy, each way after 9 s, for 10 s, a mover of Explore (p95 29 to 43
+# ms alone). p95 and longest ms of a move, and the longest /liveness, beside 1, 2, 4 and 16 pages:
 #
 #   rooms     104 249 40    60 63 12    77 110 20   358 387 128
 #   page      a p95 of at most 58, longest 64, /liveness 13
 #   pings     a p95 of at most 54, longest 66, /liveness  7
 #   frames    a p95 of at most 56, longest 57, /liveness 11
 #
-# 2 s after they had gone the server took 0.4 to 0.8 s of the processor in 2 s, of which the mover's own are 0.4. The aims
-# (p95 250, /liveness 500, nothing left) are met but for the moves beside 16 pages that look into rooms.
+# 2 s after they had gone the server took 0.4 to 0.8 s of the processor in 2 s, of which the mover's own are 0.4. The
+# aims (p95 250, /liveness 500, nothing left) are met but for the moves beside 16 pages that look into rooms.
