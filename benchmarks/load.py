@@ -600,8 +600,8 @@ if __name__ == "__main__":
 # s. Twenty did not all have Maps within a minute. Ten who open another room every 2 s: moves p95 501 ms, /liveness 534.
 # The aims (twenty within 4 s, 250 ms, 0.5 s) are missed, by most in Maps, whose runs begin while others are made.
 #
-# 2026-11-29, 06:22 to 06:30, nothing else running, greedy, each way after 9 s, for 10 s, a mover of Explore (p95 29 to 43
-# ms alone). p95 and longest ms of a move, and the longest /liveness, beside 1, 2, 4 and 16 pages:
+# 2026-11-29, 06:22 to 06:30, nothing else running, greedy, each way after 9 s, for 10 s, a mover of Explore (p95 29 to
+# 43 ms alone). p95 and longest ms of a move, and the longest /liveness, beside 1, 2, 4 and 16 pages:
 #
 #   rooms     104 249 40    60 63 12    77 110 20   358 387 128
 #   page      a p95 of at most 58, longest 64, /liveness 13
