@@ -119,6 +119,11 @@ def may_stick(y: Array, modes: Modes, i: int, P: Record, C: Record) -> bool:
     return spare(i, modes, P, C) >= 0.0
 
 
+def may_both_stick(y: Array, P: Record, C: Record) -> bool:
+    """Whether both contacts could stick in this state."""
+    return may_stick(y, (STICK, STICK), BALL, P, C) and spare(STEM, (STICK, STICK), P, C) >= 0.0
+
+
 def let_go(y: Array, modes: Modes, P: Record, S: Record, C: Record) -> None:
     """y with a minimal slip at a contact that starts to slip, in the direction in which the slip grows."""
     for i in range(1 + P.stem):

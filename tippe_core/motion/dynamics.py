@@ -143,6 +143,15 @@ def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
     return F[part] + cross(w_dot, row(C.rho, i))[part]
 
 
+def holding(C: Record, n: int, i: int, M: Vector, pivots: bool) -> int:
+    """Adds the unknowns of a contact i that sticks: N, each unit of which has the torque M, the two components of
+    friction, and its torque if it pivots. Returns the next free column."""
+    n = column(C, n, i, 2, (0.0, 0.0, 1.0), M)
+    n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
+    return column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if pivots else n
+
+
 def unknowns(w: Vector, modes: Modes, P: Record, C: Record) -> int:
     """Sets up the columns of all unknowns and returns their number."""
     n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING)
@@ -153,11 +162,7 @@ def unknowns(w: Vector, modes: Modes, P: Record, C: Record) -> int:
             k, t = push(P.law, ux * ux + uy * uy, w[2])
             n = column(C, n, i, 2, (-k * ux, -k * uy, 1.0), (rolls[0], rolls[1], -t))
         elif modes[i] == STICK:
-            n = column(C, n, i, 2, (0.0, 0.0, 1.0), (rolls[0], rolls[1], 0.0))
-            n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-            n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
-            if P.law.pivots and carried(modes) < 3:
-                n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+            n = holding(C, n, i, (rolls[0], rolls[1], 0.0), P.law.pivots and carried(modes) < 3)
     return n
 
 

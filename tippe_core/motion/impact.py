@@ -22,6 +22,7 @@ from .dynamics import (
     column,
     component,
     cross,
+    holding,
     kinetic,
     least_along_the_line,
     respond,
@@ -170,13 +171,10 @@ def halted(y: Array, modes: Modes, P: Record, C: Record) -> None:
     e, w, _ = arrange(y, NO_ONE, (OPEN, OPEN), P, C)
     both, n = modes[BALL] == modes[STEM] == STICK, 0
     for i in range(1 + P.stem):
-        if modes[i] != OPEN:
-            n = column(C, n, i, 2, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
         if modes[i] == STICK:
-            n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-            n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
-            if P.law.pivots and not both:
-                n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+            n = holding(C, n, i, (0.0, 0.0, 0.0), P.law.pivots and not both)
+        elif modes[i] != OPEN:
+            n = column(C, n, i, 2, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
     respond(n, e, P, C)
     for j in range(n):
         C.right[j] = -w[2] if C.part[j] == 3 else -C.u[C.owner[j], C.part[j]]

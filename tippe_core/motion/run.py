@@ -279,12 +279,9 @@ def patch_comes_to_rest(W: Record, P: Record, before: float) -> Event:
             left = speeds[i] * (y[at.TIME] - W.step.z[at.TIME]) / (before - speeds[i])  # time until it vanishes
             if left * left > max(P.tolerance, NEARLY_STILL):  # it may as well grow again
                 continue
-            rest, holds = contacts.stuck(modes, i), False
-            if modes[1 - i] == SLIP and speeds[1 - i] < slow:
-                rest = STICK, STICK
-                holds = contacts.may_stick(y, rest, i, P, C) and contacts.may_stick(y, rest, 1 - i, P, C)
-                rest = rest if holds else contacts.stuck(modes, i)
-            holds = holds or contacts.may_stick(y, rest, i, P, C)
+            together = modes[1 - i] == SLIP and speeds[1 - i] < slow and contacts.may_both_stick(y, P, C)
+            rest = (STICK, STICK) if together else contacts.stuck(modes, i)
+            holds = together or contacts.may_stick(y, rest, i, P, C)
             if holds or speeds[i] < contacts.NUDGE / 4:
                 rates(y, NO_ONE, modes, P, C, W.step.K[0])
                 for k in range(16):
