@@ -153,7 +153,7 @@ def page(lines, chosen):
            "the paper ([where](equations.md)), and in a quarter of the others of the core and the model, drawn by "
            "their text. Each change is tried in a process of its own, with the tests that run through the statement, "
            "until one fails: first those that noticed a change near it, then those that are quick and run through "
-           "little else, then the other tests of the first ones’ files. Kernels run as Python where the core is changed, "
+           "little else, then the others of the first ones’ files. Kernels run as Python where the core is changed, "
            "compiled where the model is. Searches and tests of convergence are left out, because a wrong step there "
            "is slow or refused, and so is what only compiles and stores. `tests/data/mutants.jsonl` has each change "
            "with its date, its commit, a hash of the function and the test that noticed it; `tests/data/reach.json` "
