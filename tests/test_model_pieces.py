@@ -14,13 +14,14 @@ from app.model.build.measures import measures
 from app.model.explorer import Explorer
 from app.model.lesson import lesson, runs
 from app.model.measured import known
-from app.model.measured.cells import MeasuredError
+from app.model.measured.cells import MeasuredError, cells_of
 from app.model.measured.data import Series
 from app.model.measured.fit import Problem
 from app.model.measured.motion import _axis_seen
 from app.model.measured.starts import FIRST, scattered
 from app.model.measured.table import PACKED, text_inside
 from app.model.phases import Samples, phases
+from app.model.pool import TURN, Pool
 from app.model.roll.slipping import slipping
 from app.model.scene import solve
 from app.model.stretches import EDGE, rolled
@@ -72,6 +73,8 @@ def test_dimension_lines_begin_and_end_where_the_solid_does():
     start, end = at["rounding"]
     assert np.hypot(*(end - start)) == pytest.approx(0.002)
     assert start == pytest.approx((-(0.0032 - 0.002), 0.0082 + 0.0192 - 0.002))  # below its end, within its side
+    edge = at["R"][1]
+    assert np.hypot(*edge) == pytest.approx(0.016) and edge[0] < 0 and edge[1] < 0  # on the left of what rolls
     (_, low), (_, high) = at["thickness"]
     assert high - low == pytest.approx(0.002) and low == pytest.approx(0.004 - 0.016)
     assert [z for _, z in at["disc"]] == pytest.approx([(low + high) / 2] * 2)
@@ -100,6 +103,18 @@ def test_what_slips_begins_with_the_spin_that_it_was_given():
     assert slips.y[-1] == pytest.approx(found.numbers["slipped"], abs=0.2)
 
 
+def test_what_friction_takes_is_in_percent_of_what_was_there():
+    found, _ = answer("arms")
+    assert next(curve for curve in found.picture.curves if curve.key == "L_3").y[0] == pytest.approx(100)
+
+
+def test_the_height_of_a_motion_at_the_pole_is_drawn_as_far_as_the_pole():
+    scene = solve(Top.paper(), -9.0, 10.0, 0.0, share=1.0)
+    found = lesson.OF_NAME["turning"].answer(scene)
+    curve = found.picture.curves[0]
+    assert np.degrees(scene.turning[1]) > 150 and curve.x.max() < 180 and np.all(np.isfinite(curve.y))
+
+
 # ---- a run ----
 
 
@@ -110,6 +125,14 @@ def test_a_passage_begins_when_the_side_is_passed_between_two_samples():
     found = phases(Samples(t, tilt, np.full(n, "ball"), np.full(n, False), np.full(n, 20.0), np.ones(n), (), 0.2))
     over = next(phase for phase in found if phase.kind == "over")
     assert over.start == pytest.approx(1.003 + 70 / 155, abs=1e-6)
+
+
+def test_a_rise_ends_where_it_stays_unless_that_is_at_the_very_end():
+    t = np.linspace(0, 6.2, 621)
+    tilt = np.interp(t, [0, 5, 6.2], [20, 80, 80])
+    n = len(t)
+    found = phases(Samples(t, tilt, np.full(n, "ball"), np.full(n, False), np.full(n, 20.0), np.ones(n), (), 0.2))
+    assert found[0].kind == "rises" and 4 < found[0].end < 5.6
 
 
 def test_a_slip_is_followed_from_the_constants_of_the_motion_that_begins_it():
@@ -172,10 +195,28 @@ def test_where_nothing_changes_no_better_minimum_is_found():
     assert error == np.inf and better is None
 
 
+def test_a_row_may_have_lost_its_last_separator_and_has_no_cell_too_many():
+    rows = [f"{t};1.0;{t}.5" for t in range(20)]
+    found = cells_of("\n".join(["t;a;b", *rows[:7], "7;1.0", *rows[8:]]))
+    assert found.values.shape == (20, 3) and np.isnan(found.values[7, 2])
+    with pytest.raises(MeasuredError, match="width"):
+        cells_of("\n".join(["t;a;b", *rows[:7], "7;1.0;7.5;9", *rows[8:]]))
+
+
 def test_a_file_that_is_too_large_is_refused_by_its_size_in_MB():
     with pytest.raises(MeasuredError) as refused:
         text_inside(bytes(PACKED + 500_000))
     assert refused.value.numbers["size"] - refused.value.numbers["most"] == pytest.approx(0.5)
+
+
+# ---- threads ----
+
+
+def test_pieces_of_one_visitor_have_one_share_among_others():
+    """Three of them, each of which works for a TURN and rests then, take no more than one that works on."""
+    pool = Pool(2, "shares")
+    pool._working.update({"one": 3, "other": 1})
+    assert 3 * TURN / (TURN + pool.rest("one")) <= 1
 
 
 # ---- votes ----
