@@ -101,8 +101,13 @@ def changes(tree):
         setattr(node, field, kept)
 
 
+@functools.cache
 def mutants(path):
     """All of a file."""
+    return [*_mutants(path)]
+
+
+def _mutants(path):
     for number, (statement, before, after, _) in enumerate(changes(ast.parse((ROOT / path).read_text("utf-8")))):
         pairs = zip(before.splitlines(), after.splitlines(), strict=True)
         for old, new in ((old.strip(), new.strip()) for old, new in pairs if old != new):

@@ -20,6 +20,29 @@ STORES = {"kept", "ahead", "__main__"}
 
 # Changes that tests cannot notice, and why: (file, code after the change) -> reason.
 EXPLAINED = {
+    ("wells", "side = 1.0 if low.c + high.c > 0 else +1.0"): "from which pole a first guess is found",
+    ("wells", "s2, (B, _) = (x * (2 + x), bracket_near(side, x, curve))"): "a positive factor of what is 0 there",
+    (
+        "summary",
+        "changes = turns and e * rate < 0.0 and (min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) / (ends - begins))",
+    ): "steps are shorter than 1, so that it looks more often, to the same end",
+    (
+        "crowding",
+        "y = np.concatenate([[1], cos ** 2 - sin ** 3, [-1]])",
+    ): "another grid on which a search begins, to the same end",
+    (
+        "dynamics",
+        "N = -(falls + 2 * STEADY * C.u[i, 2] - STEADY * STEADY * C.height[i]) / rises",
+    ): "arrange() has put the only closed contact at the height 0",
+    (
+        "shapes",
+        "if self.l and top + b > self.floor:",
+    ): "a cylinder of no height",
+    ("impact", "if holds and spread(q, law) <= STOPPED / scale:"): "which slip counts as nothing",
+    (
+        "impact",
+        "I.J[:], holds = (I.J - away(W, q, rest, scale), False)",
+    ): "how it leaves a slip of nothing; from there on its law says how it slips",
     ("phases", "high = low = min(i, len(mean) + 1)"): "after the last sample nothing is looked up there",
     (
         "fit",
