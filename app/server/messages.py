@@ -139,7 +139,7 @@ LENGTH = number(-1e4, 1e4)  # mm
 SHOWN = ("show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum",
          "follow")  # fmt: skip
 PICTURE = dict.fromkeys(SHOWN, FLAG) | {
-    "time": SIZE, "playing": FLAG, "speed": number(0, 100), "tilted": row(ANGLE, SIZE, COUNT, or_none=True),
+    "time": SIZE, "playing": FLAG, "speed": number(0, 100),
     "camera": row(NUMBER, NUMBER, NUMBER, or_none=True),
 }  # fmt: skip
 POINT = {"hand": row(one_of("end", "line", "point"), ANGLE, SIZE, or_none=True),

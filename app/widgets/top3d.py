@@ -59,12 +59,6 @@ class Top3D(Bundled, Playing):
         doc="G's distance below O, in R, where O may leave its height of R: in flight, on a stem. None: it does not.",
     )
     bare = param.Boolean(default=False, constant=True, doc="Whether it has no bar that plays it.")
-    tiltable = param.Boolean(default=False, constant=True, doc="Whether the axis has a handle when the top is paused.")
-    tilted = param.List(
-        default=[],
-        doc="[theta, t, grasp] of a hand on the axis, the browser writes it: the tilt it asks for, the time at which "
-        "it took hold, and a number that is another one for each grasp.",
-    )
     speed = param.Number(default=1 / 16, doc="1 is the real top's own speed.")
 
 

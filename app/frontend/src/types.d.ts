@@ -51,8 +51,7 @@ type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
 
 interface TopModel extends Model, Record<Part3D, boolean> {
   before?: Before | null;
-  degrees?: boolean; // the text of the handle
-  letGo?(): void; // called when the axis is released
+  pulled?: { to(theta: number, azimuth: number): void; letGo(): void }; // what a hand on the axis asks for, rad
   flick?: Hand;
   pushes?: Pushed[];
   frames: Bytes;
@@ -64,8 +63,6 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   clock: string;
   a: number | null;
   bare?: boolean; // without a bar of its own
-  tiltable: boolean;
-  tilted: [theta: number, t: number, grasp: number, azimuth?: number] | [];
   azimuth?: number; // rad: as of Frames
   playing: boolean;
   speed: number;
@@ -274,9 +271,6 @@ interface CopyModel extends Model {
   button: [before: string, after: string];
 }
 
-interface SaidModel extends Model {
-  text: string;
-}
 
 interface AddressModel extends Model {
   search: string;

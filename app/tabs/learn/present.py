@@ -36,7 +36,7 @@ class Teacher:
 
     def __init__(self, kept, now, show):
         self._kept, self._now, self._show = kept, now, show
-        self._counter, self._room, self._wish, self._busy, self._sentence = Counter(), None, None, False, ""
+        self._counter, self._room, self._wish, self._busy = Counter(), None, None, False
         self.come_back()
 
     def come_back(self):

@@ -1,5 +1,6 @@
 // A top in 3-D for the Lab: it has no bar of its own, and its model is created here.
 import { renderTop3D } from "./top3d.js";
+import { degrees } from "../data.js";
 import { part } from "../parts.js";
 import { atEnd } from "../life.js";
 import { modelOf } from "../stand_in.js";
@@ -27,7 +28,11 @@ export class Top {
     this.element = part("div", { class: "top" });
     this.model = modelOf({
       texts, label, clock: time.name, now: undefined, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
-      bare: true, flick, pushes: [], tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
+      bare: true, flick, pushes: [], playing: true, ...NOTHING,
+      pulled: hand && { letGo: hand.letGo, to: (theta, azimuth) => {
+        this.put({ azimuth });
+        hand.pull(degrees(theta));
+      } },
       get camera() { return camera; },
       set camera(chosen) {
         camera = chosen.length ? chosen : first;
@@ -36,12 +41,6 @@ export class Top {
       get speed() { return time.speed; },
       set speed(_) {},
       get until() { return time.end / time.unit; },
-      tilted: [],
-    });
-    this.model.on("tilted", () => {
-      const [theta, , , azimuth] = this.model.tilted;
-      this.put({ azimuth });
-      hand?.pull((180 / Math.PI) * theta);
     });
     this.view = /** @type {any} */ ({});
     atEnd(life, () => this.view.tippe?.dispose());

@@ -46,7 +46,7 @@ class Top {
     this.player = this.place.player;
     this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model, life);
     this.ghost = model.before === undefined ? null : new Ghost(stage);
-    this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
+    this.handle = model.pulled ? new Handle(stage, this.scene.labels, model.texts, model.pulled) : null;
     this.impulse = model.pushes ? new Impulse(stage, this.scene) : null;
     this.flick = model.flick && this.impulse ? new Flick(stage, this.scene, this.player, model.flick, this.impulse) : null;
     this.bar = model.bare ? null : new Bar(root, picture, model, this.player, () => {
@@ -168,7 +168,7 @@ class Top {
 export function renderTop3D(rendering) {
   const { model, el } = rendering, life = lifeOf(rendering, { look: () => top?.look() });
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
-  if (!model.clock || model.tiltable) picture.dataset.picture = "top";
+  if (!model.clock || model.pulled) picture.dataset.picture = "top";
   const stage = tryStage(picture, { label, texts, fov: 30, life });
   const top = stage && new Top(model, stage, { root, picture, label, life });
   if (top) top.begin();
