@@ -52,7 +52,7 @@ class Top3D(Bundled, Playing):
         default=0.5, bounds=(0, None), doc="Coefficient of static friction: the tangent of the cone's half angle."
     )
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
-    label = param.String(default="", constant=True, doc="Its name; empty: that of the rolling top.")
+    label = param.String(default="", doc="What it shows, for screen readers; empty: the rolling top.")
     clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
     a = param.Number(
         default=None,

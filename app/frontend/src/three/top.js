@@ -26,6 +26,7 @@ export class Top {
     const first = [-1.12, 0.26, away];
     let camera = before.length ? before : first;
     this.element = part("div", { class: "top" });
+    this.label = label;
     this.model = modelOf({
       texts, label, clock: time.name, now: undefined, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
       bare: true, flick, pushes: [], playing: true, ...NOTHING,
@@ -57,6 +58,13 @@ export class Top {
 
   /** @param {Record<string, any>} changes */
   put = (changes) => void Object.assign(this.model, changes);
+
+  // What it shows, for those who do not see it.
+  /** @param {string} words */
+  describe(words) {
+    const label = `${this.label}. ${words}`;
+    if (this.model.label !== label) this.put({ label });
+  }
 
   firstView() {
     this.model.camera = [];

@@ -22,12 +22,11 @@ import { TopScene } from "./top_scene.js";
 const REDRAWN = ["mu_s", "seconds", "show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"];
 
 class Top {
-  /** @param {TopModel} model @param {Stage} stage @param {{ root: HTMLElement, picture: HTMLElement, label: string, life: AbortSignal }} frame */
-  constructor(model, stage, { root, picture, label, life }) {
+  /** @param {TopModel} model @param {Stage} stage @param {{ root: HTMLElement, picture: HTMLElement, life: AbortSignal }} frame */
+  constructor(model, stage, { root, picture, life }) {
     this.model = model;
     this.stage = stage;
     this.life = life;
-    this.label = label;
     this.received = this.drawing = this.shown = 0; // counts of motions: arrived, in the picture being drawn, on the screen
     this.highlight = /** @type {Pointed | null} */ (null); // from a tippe:highlight
     this.scene = new TopScene(stage, life);
@@ -156,7 +155,7 @@ class Top {
   }
 
   report = () => {
-    const { player: { t, playing, frames }, place, scene: { body, pointedAt }, stage: { pictures }, eye, label, verdict, received, shown } = this;
+    const { player: { t, playing, frames }, place, scene: { body, pointedAt }, stage: { pictures }, eye, model: { label }, verdict, received, shown } = this;
     return {
       t, playing, pictures, label, index: place.reported?.index, count: frames.count, position: body.position.toArray(), quaternion: body.quaternion.toArray(),
       eye: eye.direction, verdict: verdict.textContent, motions: { received, shown }, highlight: pointedAt.visible ? this.highlight?.label : "",
@@ -170,7 +169,8 @@ export function renderTop3D(rendering) {
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
   if (!model.clock || model.pulled) picture.dataset.picture = "top";
   const stage = tryStage(picture, { label, texts, fov: 30, life });
-  const top = stage && new Top(model, stage, { root, picture, label, life });
+  const top = stage && new Top(model, stage, { root, picture, life });
   if (top) top.begin();
   else renderFlat(model, { root, picture, life });
+  model.on("label", () => picture.querySelector("canvas")?.setAttribute("aria-label", model.label));
 }
