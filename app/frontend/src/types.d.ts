@@ -132,9 +132,7 @@ interface FieldModel extends Model {
   wrong: [why: string, nearest: string, back: string] | [];
 }
 
-interface MenuModel extends ChoiceModel {
-  is_beside: boolean;
-}
+type MenuModel = ChoiceModel;
 
 interface ChecksModel extends Model {
   label: string;

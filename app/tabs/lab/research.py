@@ -34,7 +34,7 @@ TABLE = (
 table { border-collapse: collapse; margin: 6px 0 0; font-size: inherit }
 td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
 th { color: var(--faint) } .kept { font-weight: 600 } .kept::before { content: "● "; color: var(--kept) }
-.line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
+.says { margin: 6px 0 0 }
 """
 )
 

@@ -41,7 +41,7 @@ const places = `
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(var(--top, 48px) * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
-  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link, .say .small .link { min-height: var(--touch); }
+  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .link { min-height: var(--touch); }
   .dock { order: 1; z-index: 3; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
   :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
@@ -100,7 +100,8 @@ const strip = `
 .then { stroke: var(--line-2); stroke-width: 2; stroke-dasharray: 6 5; fill: none; } .lab.old .then { opacity: .38; }
 path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
-.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; } .say .small .link { min-height: 0; }
+.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; }
+@container (min-width: 701px) { .say .small .link { min-height: 24px; } } /* in a sentence */
 @container (max-width: 1180px) { .outline { max-width: 330px; } }
 @container (max-width: 700px) {
   /* on the stage, and as long in sight as that */

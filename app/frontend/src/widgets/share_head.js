@@ -13,7 +13,7 @@ button:hover { background: color-mix(in srgb, currentColor 8%, transparent); } :
 input { flex: 1; min-width: 0; font: inherit; color: inherit; background: none; border: 0; border-bottom: 1px solid var(--faint); border-radius: 0; height: 40px; padding: 0 2px; text-overflow: ellipsis; }
 .copy { background: var(--ink); color: var(--card); font-weight: 600; min-height: 40px; padding: 0 20px; min-width: 150px; }
 .copy:hover { background: color-mix(in srgb, var(--ink) 85%, var(--card)); }
-.code { width: min(100%, clamp(260px, 100vh - 560px, 440px)); margin: 12px auto; ${CODE}; } .code svg, .room svg { width: 100%; height: auto; display: block; shape-rendering: crispEdges; }
+.code { width: min(100%, clamp(260px, 100vh - 490px, 560px)); margin: 12px auto; ${CODE}; } .code svg, .room svg { width: 100%; height: auto; display: block; shape-rendering: crispEdges; }
 p { margin: 0; flex: 1; font-size: calc(12px * var(--type, 1)); color: var(--faint); } .line button { font-size: calc(12px * var(--type, 1)); font-weight: 600; } .line .close { font-size: calc(14px * var(--type, 1)); width: 32px; padding: 0; } .line .copy { font-size: calc(14px * var(--type, 1)); }
 .room { border: 0; padding: 0; width: 100vw; height: 100vh; max-width: none; max-height: none; background: white; color: black; }
 .room[open] { display: grid; grid-template-rows: 1fr auto; justify-items: center; } .room div { width: min(96vw, 100vh - 96px); ${CODE}; }
