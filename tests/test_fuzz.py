@@ -360,7 +360,7 @@ def look(*events, models, buffers=()):
     ("Checks1", "value", [[], ["a"], [7, "a"]], ["a", ["c"], [1], [["a"]], None]),
     ("TextFile1", "sent", [["", 1, 0], ["x" * LARGEST_FILE, 2, 1]],
      [["x" * (LARGEST_FILE + 1), 1, 1], ["", -1, 1], [""]]),
-    ("Surface3D1", "hand", [[], ["end", 0.5, 7]], [["a", 0.5, 7], ["end", True, 7], [0.5, 7]]),
+    ("Surface3D1", "hand", [["end", 0.5, 7], ["tieline", 0.5, 7]], [[], ["a", 0.5, 7], ["end", True, 7], [0.5, 7]]),
     ("TopsMap1", "state", [None, 7, "x", [1, [2]], {"type": "map", "entries": [["a", 1]]}],
      [[0] * (MOST + 1), [[[[[1]]]]], 1e16, float("inf"), {"type": "slice"}, {"id": "p1"}, {"a": 1}, "x" * 20_000]),
     ("Form1", "sent", [[1, 1, "value", "7"], [2, 2, "value", "b"], [3, 3, "clicks", 1]],

@@ -86,8 +86,7 @@ interface SurfaceModel extends Model {
   selected_curve: Bytes;
   theta_max: number;
   limit: "lift-off" | "slip";
-  hand: [grip: "end" | "line" | "point", theta: number, K_J: number] | [];
-  picked: [K_J: number, theta: number] | [];
+  hand: [grip: "end" | "line" | "point" | "tieline", theta: number, K_J: number] | [];
 }
 
 interface SectionModel extends Model {

@@ -68,7 +68,7 @@ class Rolling:
 
     def plane(self):
         card = PlaneCard(self._pacer.ask, self._slip, self._runs)
-        card.plane.param.watch(validate.handler(self._on_plane), "hand")
+        card.plane.param.watch(validate.handler(partial(self._grabbed, limit="slip")), "hand")
 
         def select(scene):
             self._scene = scene
@@ -80,7 +80,7 @@ class Rolling:
     def surface(self):
         surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])
         at_once(surface, "hand")
-        surface.param.watch(validate.handler(self._on_surface), ["hand", "picked"])
+        surface.param.watch(validate.handler(lambda event: self._grabbed(event, self._scene.plane.limit)), "hand")
 
         def draw(scene):
             self._scene = scene
@@ -112,16 +112,7 @@ class Rolling:
 
     # ---- requests by hand ----
 
-    def _grabbed(self, grip, theta, K_J, limit):
+    def _grabbed(self, event, limit):
         """A request from the (K_J, theta) plane; limit: that of the tielines in the picture."""
+        grip, theta, K_J = validate.parts(event.new, validate.text, validate.number, validate.number)
         self._pacer.ask(**pulled(self._scene, grip, theta, K_J, limit))
-
-    def _on_plane(self, event):
-        self._grabbed(*validate.parts(event.new, validate.text, validate.number, validate.number), "slip")
-
-    def _on_surface(self, event):
-        if event.name == "hand":
-            grip, theta, K_J = validate.parts(event.new, validate.text, validate.number, validate.number)
-        else:
-            grip, (K_J, theta) = "tieline", validate.parts(event.new, validate.number, validate.number)
-        self._grabbed(grip, theta, K_J, self._scene.plane.limit)
