@@ -32,8 +32,8 @@ UNROLLED = ":host { max-height: none !important }"
 NOTICE = """
 :host { position: fixed; z-index: 15; inset: calc(48px * var(--type, 1) + 8px) 24px auto auto;
   width: auto !important; max-width: 560px }
-[role=alert] { background: var(--card); color: var(--ink); border: 1px solid var(--control-line); padding: 8px 16px; border-radius: 8px;
-  box-shadow: 0 2px 8px rgb(0 0 0 / 30%) }
+[role=alert] { background: var(--card); color: var(--ink); border: 1px solid var(--control-line); border-radius: 8px;
+  padding: 8px 16px; box-shadow: 0 2px 8px rgb(0 0 0 / 30%) }
 @media (max-width: 700px) { :host { inset: auto 8px 64px } }
 """
 

@@ -72,7 +72,7 @@ class Rolling:
 
         def select(scene):
             self._scene = scene
-            card.show_selected(scene)
+            card.plane.show_selected(scene)
 
         place = column(card.plane, styles={"height": HIGH})
         return [place], {"hand": select, "pictures": card.plane.show_plane, "still": card.show_path}
