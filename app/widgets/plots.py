@@ -74,8 +74,8 @@ def round_numbers(low, high):
     about = (high - low or 1) / 4
     power = 10 ** np.floor(np.log10(about))
     step = next(size * power for size in (1, 2, 5, 10) if size * power >= about)
-    first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
-    return [float(f"{step * i:.6g}") for i in np.arange(first, last + 1)]
+    first, last = int(np.ceil(low / step - 1e-9)), int(np.floor(high / step + 1e-9))
+    return [float(f"{step * i:.6g}") for i in range(first, last + 1)]
 
 
 def on_pointer(fig, act, *more):
