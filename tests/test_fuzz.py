@@ -213,7 +213,7 @@ def test_what_is_no_message_or_is_never_read_disturbs_nobody(attacked):
 
 ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 3000,
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
-GOOD = {"request": [7, "K_J", 6.5, False], "hand": [], "tilted": [], "playing": False,
+GOOD = {"request": [7, "K_J", 6.5, False], "hand": [], "playing": False,
         "gesture": 7, "dark": False}  # fmt: skip
 GOOD_OF = {
     ("Head", "request"): [7, "table", "rough"],
@@ -360,8 +360,7 @@ def look(*events, models, buffers=()):
     ("Checks1", "value", [[], ["a"], [7, "a"]], ["a", ["c"], [1], [["a"]], None]),
     ("TextFile1", "sent", [["", 1, 0], ["x" * LARGEST_FILE, 2, 1]],
      [["x" * (LARGEST_FILE + 1), 1, 1], ["", -1, 1], [""]]),
-    ("Top3D1", "tilted", [[], [1.5, 0.1, 3]], [[1.5], [9, 0, 0], [1.5, "0", 0], [1.5, 0, -1], {}]),
-    ("Surface3D1", "hand", [[], ["end", 0.5, 7]], [["a", 0.5, 7], ["end", True, 7], [0.5, 7]]),
+    ("Surface3D1", "hand", [["end", 0.5, 7], ["tieline", 0.5, 7]], [[], ["a", 0.5, 7], ["end", True, 7], [0.5, 7]]),
     ("TopsMap1", "state", [None, 7, "x", [1, [2]], {"type": "map", "entries": [["a", 1]]}],
      [[0] * (MOST + 1), [[[[[1]]]]], 1e16, float("inf"), {"type": "slice"}, {"id": "p1"}, {"a": 1}, "x" * 20_000]),
     ("Form1", "sent", [[1, 1, "value", "7"], [2, 2, "value", "b"], [3, 3, "clicks", 1]],
@@ -427,7 +426,7 @@ def test_the_table_has_what_our_scripts_change():
     scripts = [*(APP / "frontend/src").rglob("*.js"), *APP.rglob("*.py")]
     changed = {name for path in scripts
                for name in re.findall(r"\bmodel\.(\w+) (?:\+?=) ", path.read_text(encoding="utf-8"))}  # fmt: skip
-    assert {"request", "painted", "tilted", "page"} <= changed
+    assert {"request", "painted", "page"} <= changed
     assert changed - {name for attributes in CHANGES.values() for name in attributes} == set()
 
 

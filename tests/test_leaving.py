@@ -123,7 +123,7 @@ async def saves(page, filename):
 
 async def ask_of_a_broken_server(here, monkeypatch):
     page = await visitors.come(here.url, "de")
-    await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.head("share"))
+    await fails(page, monkeypatch, "app.widgets.codes.segno.make", lambda: page.head("share"))
     await page.head("share")  # and can be requested again
     table = await saves(page, "tippe-top-motion.csv")
     await fails(page, monkeypatch, "app.share.export.columns", lambda: page.set(table, "clicks", 1))

@@ -71,10 +71,10 @@ def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, scheduler
     [[place], draws] = Rolling(scheduler, None, None).surface()
     draws["pictures"](explorer.scene)
     [surface] = place.select(Surface3D)
-    for name, right in (("hand", ("line", 0.5, 6.0)), ("picked", (6.0, 0.5))):
+    for right in (("line", 0.5, 6.0), ("tieline", 0.5, 6.0)):
         for value in NUMBERS:
             for sent in lists(value, *right):
-                setattr(surface, name, sent)
+                surface.hand = sent
     assert math.isfinite(explorer.scene.constants.K_J)
 
 
