@@ -17,7 +17,8 @@ kernels: $(VENV)/serve
 # tests/conftest.py has how many processes; the tests of a file stay together, because many share a server, and
 # tests/durations.py has their order. To repeat an order: make test ORDER=--randomly-seed=SEED; ORDER=--shortest-first runs
 # the shortest files first.
-PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder \
+# Compiled modules are kept, whatever the environment says: each worker and each server would compile them again.
+PYTEST = PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder \
 	--max-worker-restart 0 $(ORDER)
 
 # About a minute: all tests except those that start a server or a browser, or take seconds.
