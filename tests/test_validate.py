@@ -23,11 +23,6 @@ NUMBERS = [value for value in VALUES if value != 1e308]  # which is unusual, but
 
 
 @pytest.fixture
-def explorer():
-    return Explorer()
-
-
-@pytest.fixture
 def scheduler(explorer):
     with set_curdoc(Document()):
         yield RenderScheduler(explorer)
