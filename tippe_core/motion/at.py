@@ -3,3 +3,4 @@ in place of v_x and v_y."""
 
 PX, PY, PZ, PW, CHI, LX, LY, LZ, VX, VY, X, Y, TIME, HEAT, VZ, Z = range(16)
 LOG_U, BETA = VX, VY
+NX, NY, NZ, SIGMA = VX, VY, LZ, VZ
