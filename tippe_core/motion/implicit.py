@@ -142,6 +142,13 @@ def differentiate(W: Record, P: Record) -> None:
         S.at[i] = S.z[i]
 
 
+def until_half(W: Record) -> float:
+    """How long the slip takes to be half as large, as it changes now, after differentiate(); n then relaxes twice as
+    fast as the Jacobian says, and in a longer step its stages would diverge."""
+    grows = W.step.K[0, at.SIGMA]
+    return -0.5 / grows if grows < 0.0 else np.inf
+
+
 def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
     """Computes a step of length h from step.z, after differentiate(), and its end into step.new: its error relative to
     the allowed one, and the least margin()."""

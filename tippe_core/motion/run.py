@@ -10,7 +10,7 @@ from .dynamics import arrange, forces, rates
 from .events import first_event, happens
 from .friction import is_point
 from .impact import halted
-from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
+from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff, until_half
 from .kinds import HALTS, LEAVES, NONE, SLIPS, Event
 from .poses import continue_angles, record
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record, modes_of
@@ -190,6 +190,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
     S, order = W.step, IMPLICIT_ORDER if W.stiff else stepper.ORDER
     if W.stiff:
         differentiate(W, P)
+        most = min(most, until_half(W))
     while True:
         h = min(W.h, most)
         found, near = implicit_step(W, P, h) if W.stiff else try_step(W, P, slowest, h)
