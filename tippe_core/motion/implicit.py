@@ -1,7 +1,14 @@
 """One step of a linearly implicit method of order 5, for a patch that hardly slips and hardly spins.
 
-Contensou's law is stiff there: the slip relaxes at a rate of about k N, which grows as 1/|u|, to the value at which
-friction balances the other forces, and the steps of stepper.py would shrink with |u|. With f = dz/dtau, J = df/dz,
+Contensou's law is stiff there. Friction depends only on the direction n of s = (u_x, u_y, radius w_z), which relaxes at
+a rate of about k N, as 1/|s|, to that in which friction balances the other forces; the steps of stepper.py would shrink
+with |s|, and |s| itself changes slowly. So z has n and sigma = |s|/unit in place of v_x, v_y and L_z, where the unit is
+|s| at the start of the step:
+
+    sigma' = n . s'/unit ,   n' = [s' - (n . s') n]/(unit sigma) .
+
+With v and L_z in their place |s| would be the small difference of large numbers, and a step that changes n by dn would
+change it by dn^2. With f = dz/dt, J = df/dz,
 
     [1/(gamma h) - J] U_i = f(z + sum_j a_ij U_j) + sum_j c_ij U_j/h ,   i = 0 ... 7 ,
     new z = z + sum_j a_8j U_j ,   error: U_7 ,
@@ -105,7 +112,7 @@ def to_direction(W: Record, P: Record) -> None:
 
 
 def creeping_rates(z: Array, W: Record, P: Record, out: Array) -> float:
-    """Writes dz/dt into out; returns what forces() returns."""
+    """Writes dz/dt into out; returns what forces() returns. Friction has all the digits of n, which u has not."""
     S, C, modes, i, radius = W.step, W.contacts, modes_of(W), W.step.creeps, P.law.radius
     S.y[:] = z
     from_direction(S.y, i, S.unit, P, C)
@@ -128,7 +135,7 @@ def creeping_rates(z: Array, W: Record, P: Record, out: Array) -> float:
 
 
 def differentiate(W: Record, P: Record) -> None:
-    """Writes dz/dtau at step.z into step.K[0], and J, column by column, into step.J."""
+    """Changes step.z by to_direction(); writes dz/dt there into step.K[0], and J, column by column, into step.J."""
     S = W.step
     to_direction(W, P)
     creeping_rates(S.z, W, P, S.K[0])
@@ -178,12 +185,12 @@ def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
             U[s, FEEDS[r]] = right[r]
     stage(S.z, U, A_IJ[PARTS], PARTS, 1.0, S.new)
     polynomial(S)
-    square, ends = 0.0, S.new[at.SIGMA] > 0.0
+    square, slips = 0.0, S.new[at.SIGMA] > 0.0
     for i in range(16):
         square += (U[PARTS - 1, i] / S.scale[i]) ** 2
     from_direction(S.new, S.creeps, S.unit, P, C)
     minor = rates(S.new, NO_ONE, modes, P, C, S.K[STAGES])
-    return np.sqrt(square / 16) if ends else np.inf, min(near, margin(S.new, minor, modes, P, C))
+    return np.sqrt(square / 16) if slips else np.inf, min(near, margin(S.new, minor, modes, P, C))
 
 
 def polynomial(S: Record) -> None:
