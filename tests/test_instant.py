@@ -430,7 +430,7 @@ def test_a_stem_that_slips_while_the_ball_sticks_is_not_stiff():
 
 def test_an_implicit_step_and_its_polynomial_are_of_their_order():
     """Against scipy's DOP853; in a quarter of a step the error, and that of the estimate, are 4^5 times smaller at
-    least, and those of the polynomial 4^4.5 times. (Below 1e-8 of the slip the Jacobian's difference quotients show.)"""
+    least, and those of the polynomial 4^4.5 times. (Below 1e-8 of the slip the difference quotients show.)"""
     W, P, rate = creeping(10.0)
     S, errors, W.implicit = W.step, [], 1
     for h in (4e-3, 1e-3):
