@@ -2,7 +2,8 @@
 
 In statements that compute something one sign and one factor are changed, one at a time, in a process of its own, and
 the tests that run through the statement (reach.py) are run until one fails: first those that noticed a change near it,
-then those that are quick and run through little else, then the same with other parameters. data/mutants.jsonl keeps
+then those that are quick and run through little else, then what else is in the files of the first of them: other
+parameters, and tests that look at a result which another test had computed before. data/mutants.jsonl keeps
 what each change came to, docs/mutants.md tells it (mutants_page.py). What is known is not tried again, unless the
 function that was changed or the test that noticed it is another now.
 """
@@ -27,7 +28,7 @@ from pathlib import Path
 
 import pytest
 from fingerprint import core
-from mutants_page import EXPLAINED, LOG, PAGE, functions_in, logged, page
+from mutants_page import EXPLAINED, LOG, PAGE, STORES, functions_in, logged, page
 from mutation import sites
 from reach import KEPT, OPTIONS, PARTS, ROOT, SECONDS, in_turn, marks, prepare, statements
 
@@ -37,8 +38,6 @@ SHARE = 0.25
 """Of the other changes; those of functions in docs/equations.md are all tried."""
 MINUTES = 2
 """Of the processor for all tests of one change."""
-STORES = {"kept", "ahead", "__main__"}
-"""Files that compute nothing: they compile and store, which test_compiled.py tries in processes of its own."""
 FIRST = 8
 """So many tests are tried before the files of all the others are read."""
 
@@ -102,8 +101,13 @@ def changes(tree):
         setattr(node, field, kept)
 
 
+@functools.cache
 def mutants(path):
     """All of a file."""
+    return [*_mutants(path)]
+
+
+def _mutants(path):
     for number, (statement, before, after, _) in enumerate(changes(ast.parse((ROOT / path).read_text("utf-8")))):
         pairs = zip(before.splitlines(), after.splitlines(), strict=True)
         for old, new in ((old.strip(), new.strip()) for old, new in pairs if old != new):
@@ -198,8 +202,8 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
 
 class Witness:
-    """A pytest plugin that runs these tests in this order, or their other parameters, and keeps the first that fails.
-    It ends a process in which one takes some times as long as it did."""
+    """A pytest plugin that runs these tests in this order, or the others of their files, and keeps the first that
+    fails. It ends a process in which one takes some times as long as it did."""
 
     def __init__(self, seconds, limit, others):
         self._seconds, self._limit, self._others, self.by, self.all = seconds, limit, others, "", True
@@ -208,9 +212,9 @@ class Witness:
     def pytest_collection_modifyitems(self, items):
         named = {name_of(item.nodeid): item for item in items}
         if self._others:
-            functions = {test.partition("[")[0]: None for test in self._seconds}
-            mine = [name for function in functions for name in named
-                    if name.partition("[")[0] == function and name not in self._seconds]  # fmt: skip
+            functions = {test.partition("[")[0] for test in self._seconds}
+            mine = sorted((name for name in named if name not in self._seconds),
+                          key=lambda name: name.partition("[")[0] not in functions)  # fmt: skip
         else:
             mine = [name for name in self._seconds if name in named]
         items[:] = [named[name] for name in mine]
@@ -240,7 +244,7 @@ def noticed(limit, mutant):
     limit: of these."""
     tests = tests_of(mutant)
     sys.meta_path.insert(0, Changed(mutant.path, source_of(mutant)))
-    for some, others in ((tests[:FIRST], False), (tests[FIRST:], False), (tests, True)):
+    for some, others in ((tests[:FIRST], False), (tests[FIRST:], False), (tests[:FIRST], True)):
         by, whole = tried(dict(some), limit, others)
         if by or not whole:
             break

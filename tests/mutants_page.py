@@ -15,21 +15,44 @@ ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
 
+STORES = {"kept", "ahead", "__main__"}
+"""Files that compute nothing: they compile and store, which test_compiled.py tries in processes of its own."""
+
 # Changes that tests cannot notice, and why: (file, code after the change) -> reason.
 EXPLAINED = {
+    ("wells", "side = 1.0 if low.c + high.c > 0 else +1.0"): "from which pole a first guess is found",
+    ("wells", "s2, (B, _) = (x * (2 + x), bracket_near(side, x, curve))"): "a positive factor of what is 0 there",
     (
-        "wells",
-        "return NoMotionError('E', float(E), 'E >= {least:.10g} for this top, K_J = {K_J:.10g} and K_R = {K_R:.10g}', "
-        "'Below it is no motion, at it the steady precession of least energy.', code='no-motion', "
-        "least=no_less(E_least), K_J=float(exact.K_J) + 0.0, K_R=float(exact.K_R) - 0.0)",
-    ): "the wording of an error, -0 for 0",
-    ("preparing", "arm = abs(top.a * (1 + top.a * c)) * s"): "the least of it over all theta is the same",
+        "summary",
+        "changes = turns and e * rate < 0.0 and (min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) / (ends - begins))",
+    ): "steps are shorter than 1, so that it looks more often, to the same end",
+    (
+        "crowding",
+        "y = np.concatenate([[1], cos ** 2 - sin ** 3, [-1]])",
+    ): "another grid on which a search begins, to the same end",
+    (
+        "dynamics",
+        "N = -(falls + 2 * STEADY * C.u[i, 2] - STEADY * STEADY * C.height[i]) / rises",
+    ): "arrange() has put the only closed contact at the height 0",
+    (
+        "shapes",
+        "if self.l and top + b > self.floor:",
+    ): "a cylinder of no height",
+    ("impact", "if holds and spread(q, law) <= STOPPED / scale:"): "which slip counts as nothing",
+    (
+        "impact",
+        "I.J[:], holds = (I.J - away(W, q, rest, scale), False)",
+    ): "how it leaves a slip of nothing; from there on its law says how it slips",
+    ("phases", "high = low = min(i, len(mean) + 1)"): "after the last sample nothing is looked up there",
+    (
+        "fit",
+        "return np.nan_to_num(row, nan=NO_MOTION, posinf=NO_MOTION, neginf=+NO_MOTION)",
+    ): "a residual far beyond all others, of which the square counts",
+    (
+        "stretches",
+        "weight = 1 / np.prod(gap / ((t[-1] + t[0]) / 4), axis=1)",
+    ): "a common factor of the weights, which are divided by one another",
     ("smooth", "q = -(B + root if B >= 0 else B + root) / 2"): "the same zeros, with more rounding",
-    (
-        "smooth",
-        "outer = -one if P(+one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)",
-    ): "the solver finds the pole to the last digit, too",
-    ("smooth", "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else solve(P, -one, here, True)"): "the same",
     ("smooth", "if slope == 0 or (abs(here) == 1 and slope / here > 0):"): "a quotient has the sign of the product",
     ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
     (
@@ -115,7 +138,7 @@ EXPLAINED = {
 def standing():
     """{line of a statement as Python writes it: {hash of a function that has it: (its name, the name of its file)}}."""
     lines = {}
-    for path in core().paths.values():
+    for path in (path for path in core().paths.values() if Path(path).stem not in STORES):
         for function, mark in functions_in(core(), path):
             for line in ast.unparse(function).splitlines():
                 lines.setdefault(line.strip(), {})[mark] = function.name, Path(path).stem
@@ -154,7 +177,7 @@ def page(lines, chosen):
            "the paper ([where](equations.md)), and in a quarter of the others of the core and the model, drawn by "
            "their text. Each change is tried in a process of its own, with the tests that run through the statement, "
            "until one fails: first those that noticed a change near it, then those that are quick and run through "
-           "little else, then the same with other parameters. Kernels run as Python where the core is changed, "
+           "little else, then the others of the first ones’ files. Kernels run as Python where the core is changed, "
            "compiled where the model is. Searches and tests of convergence are left out, because a wrong step there "
            "is slow or refused, and so is what only compiles and stores. `tests/data/mutants.jsonl` has each change "
            "with its date, its commit, a hash of the function and the test that noticed it; `tests/data/reach.json` "

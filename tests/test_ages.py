@@ -5,11 +5,12 @@ import json
 
 import ages
 import measured_proof
+import mutants
 import mutants_page
 import pytest
 import validation
 from claims import ROWS
-from fingerprint import Code
+from fingerprint import Code, core
 
 
 @pytest.mark.parametrize("page", ages.PAGES, ids=lambda page: page.name)
@@ -62,6 +63,11 @@ def test_a_mutant_counts_as_noticed_only_where_its_function_is_as_it_was(monkeyp
     assert "2 are of functions or statements that are no more" in page and "has 7 such changes" in page
     assert "| new | 1 | 1 (100 %) | 0 | 0 |\n| other | 1 | 0 (0 %) | 0 | 1 |\n| all | 2 | 1 (50 %) | 0 | 1 |" in page
     assert "- `g` of `other`: not explained yet" in page and "| old |" not in page
+
+
+def test_what_is_explained_of_a_change_is_of_a_statement_of_today():
+    today = {change.after for path in core().paths.values() for change in mutants.mutants(path)}
+    assert [key for key in mutants_page.EXPLAINED if key[1] not in today] == []
 
 
 def test_the_log_of_mutants_has_its_fields():

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, Top, TruncatedSphere, Viscous
-from tippe_core.motion import at, impact, implicit, preparing
+from tippe_core.motion import at, contacts, impact, implicit, preparing
 from tippe_core.motion.dynamics import (
     SLOW,
     SLOW_ROLLING,
@@ -150,6 +150,16 @@ def test_forces_and_accelerations_in_all_modes(top, edge, law):
         slips = [r for r, i in enumerate(owners) if modes[i] == SLIP]
         minors = [matrix[r, r] for r in slips] + [np.linalg.det(matrix)] * (OPEN not in modes)
         assert minor == pytest.approx(minors[0] if len(owners) == 1 else min(1.0, *minors, 1.0), rel=1e-7)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.4, 1.1])
+def test_a_top_on_its_rounded_stem_is_near_its_limit_where_its_axis_is_nearly_vertical(turn):
+    """There the contact goes round the stem; the limit is the sine of its tilt, whichever way it leans."""
+    here = Instant(PAPER, LAWS["viscous"], EDGES["rounded"])
+    here.y[[at.PX, at.PY, at.PZ, at.PW]] = rb.euler_quaternion(turn, np.pi - 0.01, 0.0).astype(float)
+    here.y[[at.LX, at.LY, at.LZ]] = [0.0, 0.0, -1.0]
+    forces(arrange(here.y, NO_ONE, (OPEN, SLIP), here.P, here.C), (OPEN, SLIP), here.P, here.C)
+    assert contacts.margin(here.y, 9.0, (OPEN, SLIP), here.P, here.C) == pytest.approx(np.sin(0.01), rel=1e-6)
 
 
 def holding(drag, mu_s):

@@ -2,12 +2,14 @@
 wrong."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import rigid_body as rb
 import sliding_body as sb
-from cases import LOADED, PAPER
+from cases import LOADED, ORDINARY, PAPER
+from scipy.integrate import cumulative_simpson
 from scipy.optimize import brentq
 
 from tippe_core import (
@@ -19,6 +21,7 @@ from tippe_core import (
     TopError,
     TruncatedSphere,
     Viscous,
+    endings,
     f,
     outcome,
     pushed,
@@ -26,12 +29,14 @@ from tippe_core import (
     slide_many,
     steady_precessions,
     tielines,
+    turning_points,
 )
 from tippe_core.bodies.slices import Frustum, crossings
 from tippe_core.classify import LEANS, UPRIGHT, judged
 from tippe_core.linear import tumbling, tumbling_modes
 from tippe_core.motion import at, impact, preparing
 from tippe_core.motion.contacts import soften
+from tippe_core.motion.crowding import crowded, crowding, eta_halves
 from tippe_core.motion.implicit import slowest_patch
 from tippe_core.motion.periodic import skip
 from tippe_core.motion.records import BALL, IMPACT, LAW, MOTION, OPEN, SLIP, STEM, STICK, new
@@ -286,3 +291,109 @@ def test_two_contacts_that_meet_softly_stay_closed():
     assert [impact.moving(y, i, P, C)[2] for i in (BALL, STEM)] == pytest.approx([0.0, 0.0], abs=1e-14)
     np.testing.assert_array_equal(y[[at.VX, at.VY]], before[[at.VX, at.VY]])
     assert y[at.LZ] == pytest.approx(before[at.LZ], abs=1e-14) and y[at.VZ] != before[at.VZ]
+
+
+# ---- crowded nodes ----
+
+
+@pytest.mark.parametrize(("y0", "eps"), [(0.3, 1e-3), (-0.8, 0.05), (1.0, 1e-5), (-1.0, 2e-3)])
+def test_nodes_crowd_where_a_function_is_least(y0, eps):
+    """At its minimum, as near as that is sharp: in Q = (y - y0)^2 + eps^2, or at an end in Q = eps + |y - y0|."""
+
+    def Q(y):
+        return eps + np.abs(y - y0) if abs(y0) == 1 else (y - y0) ** 2 + eps**2
+
+    found = crowding(Q, 64)
+    assert (found.y0, found.eps) == pytest.approx((y0, eps), rel=1e-3)
+
+
+@pytest.mark.parametrize("size", [1.0, 7.0])
+def test_the_way_back_from_crowded_nodes(size):
+    """eta of a node from its kappa, of which only the ratio of sine and cosine counts."""
+    crowd = crowding(lambda y: (y - 0.3) ** 2 + 1e-4, 64)
+    cos_half, sin_half, _ = crowded(16, crowd)
+    eta = [2 * np.arctan2(*eta_halves(size * sine, size * cosine, crowd))
+           for sine, cosine in zip(sin_half, cos_half, strict=True)]  # fmt: skip
+    np.testing.assert_allclose(eta, (np.arange(16) + 0.5) * np.pi / 16, atol=1e-9)
+
+
+@pytest.mark.parametrize(("top", "theta", "y0"), [(PAPER, np.pi - 1e-2, -1.0), (ORDINARY, 1e-4, 1.0)])
+def test_nodes_crowd_where_a_motion_lingers(top, theta, y0):
+    """At the pole where it is thrown nearly upright and falls: there its kappa is 0 or pi."""
+    assert Rolling(top, None, State(theta, 0.0, 0.0, 0.05))._crowding.y0 == y0
+
+
+# ---- a rolling motion ----
+
+
+def test_notes_of_90_degrees_are_when_it_is_there():
+    motion = Rolling(PAPER, None, State(1.5, 0.6, 0.3, 0.8))
+    times = np.linspace(0.0, 2.5 * motion.period, 9)
+    notes = np.array([t for t, _ in motion._notes(times)])
+    assert len(notes) >= 4 and np.all(np.diff(notes) > 0) and notes[-1] > 1.2 * motion.period
+    np.testing.assert_allclose(motion.theta(notes), np.pi / 2, atol=1e-9)
+
+
+def test_g_goes_as_fast_as_rolling_says():
+    """Its path, found by integrating a series, against the integral of its velocity."""
+    motion = Rolling(PAPER, None, State(1.0, 0.3, 0.2, 3.0))
+    t = np.linspace(0.0, 1.5 * motion.period, 2001)
+    moved = motion(t)
+    velocity = np.exp(1j * moved.phi) * (moved.velocity[:, 0] + 1j * moved.velocity[:, 1])
+    path = moved.com[:, 0] + 1j * moved.com[:, 1]
+    np.testing.assert_allclose(path - path[0], cumulative_simpson(velocity, x=t, initial=0), atol=1e-9)
+
+
+def test_the_mark_that_the_table_leaves_on_a_ball_is_on_its_surface():
+    moved = roll(PAPER, None, np.linspace(0, 9, 30), State(1.0, 0.3, 0.2, 3.0))
+    np.testing.assert_allclose(np.linalg.norm(moved.trace, axis=1), 1.0, rtol=0, atol=1e-12)
+
+
+def test_constants_beside_a_state_are_those_of_the_state():
+    state = State(1.0, 0.3, 0.2, 3.0)
+    own = Constants.from_state(PAPER, 1.0, 0.3, 0.2, 3.0)
+    assert roll(PAPER, own, [0.0], state).theta[0] == pytest.approx(1.0)
+    with pytest.raises(TopError, match="K_J"):
+        roll(PAPER, replace(own, K_J=own.K_J + 1e-6), [0.0], state)
+
+
+def test_a_well_is_narrow_but_no_point_above_the_rounding_of_a_large_energy():
+    """Of K_R = 1000 an energy has half a million MgR, of which rounding is 1e-10."""
+    theta = steady_precessions(PAPER, 500.0, 1000.0).theta[0]
+
+    def moves(E):
+        try:
+            return len(turning_points(PAPER, Constants(500.0, 1000.0, E))) > 0
+        except TopError:
+            return False
+
+    low, high = 0.0, 1e6
+    for _ in range(70):
+        middle = (low + high) / 2
+        low, high = (low, middle) if moves(middle) else (middle, high)
+    inner, outer = turning_points(PAPER, Constants(500.0, 1000.0, high + 1e-7))[0]
+    assert inner < theta < outer
+
+
+# ---- many runs ----
+
+
+def test_the_last_progress_is_all_of_it():
+    seen = []
+    slide_many(PAPER, State(0.1, 0.0, 0.0, [1.0, 2.0]), Coulomb(0.3), 0.01, progress=seen.append)
+    assert seen[-1] == 1.0 and max(seen) == 1.0
+
+
+# ---- an end ----
+
+
+@pytest.mark.parametrize(
+    ("heat", "quiet"),
+    [([0.0, 0.0, 0.0], True), ([0.0, 4e-3, 7e-3], True), ([0.0, 4e-3, 1e-2], False), ([0.0, 0.0, 4e-3], False)],
+)
+def test_it_is_quiet_where_friction_takes_little_and_ever_less(heat, quiet):
+    """On its stem, with an energy of motion of 8 MgR: in its last span a thousandth, and no more than in the half
+    before."""
+    t = np.array([1.0, 2.0, 3.0])
+    moved = SimpleNamespace(t=t, heat=np.array(heat), ledger=SimpleNamespace(kinetic=[8.0]))
+    assert endings._quiet(moved, np.full(3, True), "stem") is quiet

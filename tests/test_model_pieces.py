@@ -1,0 +1,231 @@
+"""Pieces of the model, each against what it stands for: where no other test would notice that one is wrong."""
+
+from itertools import pairwise
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+from scipy.stats import chi2
+
+from app.model.build.builder import Draft
+from app.model.build.dimensions import handles, nearest
+from app.model.build.measures import measures
+from app.model.explorer import Explorer
+from app.model.lesson import lesson, runs
+from app.model.measured import known
+from app.model.measured.cells import MeasuredError, cells_of
+from app.model.measured.data import Series
+from app.model.measured.fit import Problem
+from app.model.measured.motion import _axis_seen
+from app.model.measured.starts import FIRST, scattered
+from app.model.measured.table import PACKED, text_inside
+from app.model.phases import Samples, phases
+from app.model.pool import TURN, Pool
+from app.model.roll.slipping import slipping
+from app.model.scene import solve
+from app.model.stretches import EDGE, rolled
+from app.model.votes import desk
+from app.model.votes.classroom import LASTS
+from tippe_core import PRESETS, Lathe, Top, TruncatedSphere
+
+SHAPES = {preset.name: preset.shape for preset in PRESETS}
+
+
+def dimension(shape, name):
+    return next(each for each in Draft(shape=shape).dimensions if each.name == name)
+
+
+# ---- a body's section ----
+
+
+def test_the_handle_of_a_turned_tops_radius_is_in_the_middle_of_its_peg():
+    shape = SHAPES["Free profile"]
+    at, (radius, height) = np.array(handles(shape)["R"]), shape.points[0]
+    assert np.hypot(*at) == pytest.approx(shape.R)
+    assert np.hypot(*(at - (radius, height))) == pytest.approx(np.hypot(*(at - (0.0, -shape.R))))
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "wanted", "low", "high"),
+    [
+        ("Wooden cone", "r2", 0.0, 4.0, 4.0),  # the stem is as thick as that
+        ("Disc on a peg", "density", 1e9, 1e8, 1e9),
+    ],
+)
+def test_the_nearest_that_is_possible_is_where_the_body_ends_to_be_one(name, key, wanted, low, high):
+    assert low <= nearest(SHAPES[name], dimension(SHAPES[name], key), wanted) <= high
+
+
+def test_a_piece_of_a_turned_top_is_named_by_its_heights_in_mm():
+    shape = Lathe(R=0.005, density=(7e3, 1e3, 700.0), points=((0.005, 0.0), (0.018, 0.01), (0.003, 0.045)))
+    assert [dict(dimension(shape, f"density {i}").numbers) for i in (1, 2)] == [
+        {"low": 0.0, "high": 10.0},
+        {"low": 10.0, "high": 45.0},
+    ]
+
+
+def test_dimension_lines_begin_and_end_where_the_solid_does():
+    """A rounding is measured from the centre of its circle, a disc at half its thickness."""
+    shape = TruncatedSphere(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115, rounding=0.002,
+                            disc=0.006, thickness=0.002, height=0.004)  # fmt: skip
+    at = {each.name: (np.array(each.start), np.array(each.end)) for each in measures(shape)}
+    start, end = at["rounding"]
+    assert np.hypot(*(end - start)) == pytest.approx(0.002)
+    assert start == pytest.approx((-(0.0032 - 0.002), 0.0082 + 0.0192 - 0.002))  # below its end, within its side
+    edge = at["R"][1]
+    assert np.hypot(*edge) == pytest.approx(0.016) and edge[0] < 0 and edge[1] < 0  # on the left of what rolls
+    (_, low), (_, high) = at["thickness"]
+    assert high - low == pytest.approx(0.002) and low == pytest.approx(0.004 - 0.016)
+    assert [z for _, z in at["disc"]] == pytest.approx([(low + high) / 2] * 2)
+
+
+# ---- the lesson ----
+
+
+def answer(name):
+    step, explorer = lesson.OF_NAME[name], Explorer()
+    explorer.set(**(step.inputs(explorer.top) if step.inputs else {}))
+    return step.answer(explorer.scene), explorer.scene
+
+
+def test_the_last_tie_is_that_of_the_pole():
+    found, scene = answer("ties")
+    heights = np.concatenate([np.asarray(curve.y, float).ravel() for curve in found.picture.curves])
+    assert np.nanmax(heights) == pytest.approx(found.numbers["pole"], rel=1e-6)
+    assert scene.constants.K_J < found.numbers["pole"]
+
+
+def test_what_slips_begins_with_the_spin_that_it_was_given():
+    found, _ = answer("proof")
+    slips = next(curve for curve in found.picture.curves if curve.key == "slips")
+    assert slips.y[0] == pytest.approx(runs.proof().spin, rel=1e-9)
+    assert slips.y[-1] == pytest.approx(found.numbers["slipped"], abs=0.2)
+
+
+def test_what_friction_takes_is_in_percent_of_what_was_there():
+    found, _ = answer("arms")
+    assert next(curve for curve in found.picture.curves if curve.key == "L_3").y[0] == pytest.approx(100)
+
+
+def test_the_height_of_a_motion_at_the_pole_is_drawn_as_far_as_the_pole():
+    scene = solve(Top.paper(), -9.0, 10.0, 0.0, share=1.0)
+    found = lesson.OF_NAME["turning"].answer(scene)
+    curve = found.picture.curves[0]
+    assert np.degrees(scene.turning[1]) > 150 and curve.x.max() < 180 and np.all(np.isfinite(curve.y))
+
+
+# ---- a run ----
+
+
+def test_a_passage_begins_when_the_side_is_passed_between_two_samples():
+    t = np.linspace(0, 6, 601)
+    tilt = np.interp(t, [0, 1.003, 2.003, 6], [20, 20, 175, 175])
+    n = len(t)
+    found = phases(Samples(t, tilt, np.full(n, "ball"), np.full(n, False), np.full(n, 20.0), np.ones(n), (), 0.2))
+    over = next(phase for phase in found if phase.kind == "over")
+    assert over.start == pytest.approx(1.003 + 70 / 155, abs=1e-6)
+
+
+def test_a_rise_ends_where_it_stays_unless_that_is_at_the_very_end():
+    t = np.linspace(0, 6.2, 621)
+    tilt = np.interp(t, [0, 5, 6.2], [20, 80, 80])
+    n = len(t)
+    found = phases(Samples(t, tilt, np.full(n, "ball"), np.full(n, False), np.full(n, 20.0), np.ones(n), (), 0.2))
+    assert found[0].kind == "rises" and 4 < found[0].end < 5.6
+
+
+def test_a_slip_is_followed_from_the_constants_of_the_motion_that_begins_it():
+    scene = solve(Top.paper(), 7.0, 10.0, 0.5, share=1.0)
+    found = slipping(scene)
+    assert (found.K_J[0], found.K_R[0]) == pytest.approx((7.0, 10.0), rel=1e-9)
+
+
+def test_windows_of_a_derivation_leave_no_gap():
+    """What is trusted of each (without EDGE nodes at either end) meets what is trusted of the next."""
+    found = rolled(solve(Top.paper(), 7.0, 10.0, 0.5, share=0.5))
+    assert len(found) > 1
+    for one, then in pairwise(found):
+        assert then.t[EDGE] == pytest.approx(one.t[-1 - EDGE], abs=1e-9)
+
+
+# ---- measured tops ----
+
+
+def test_the_camera_of_a_picture_from_the_side_is_that_of_least_squares():
+    random = np.random.default_rng(3)
+    lean = 0.4 * np.exp(1j * np.linspace(0, 9, 60))
+    up = np.sqrt(1 - np.abs(lean) ** 2)
+    across = 0.05 * np.real(lean * np.exp(-0.7j)) + random.normal(0, 2e-3, 60)
+    high = 0.05 * up + random.normal(0, 2e-3, 60)
+    series = {name: Series(np.arange(60.0), each, 1.0) for name, each in (("axis_side", across), ("axis_up", high))}
+    found = _axis_seen("axis_side", lean, up, series)
+
+    def residuals(x):
+        return np.concatenate([across - x[1] * np.real(lean * np.exp(-1j * x[0])), high - x[1] * up])
+
+    turn, length = least_squares(residuals, (0.6, 0.05), xtol=1e-15, ftol=1e-15, gtol=1e-15).x
+    assert found["axis_side"] == pytest.approx(length * np.real(lean * np.exp(-1j * turn)), abs=1e-9)
+    assert found["axis_up"] == pytest.approx(length * up, abs=1e-9)
+
+
+def test_starts_of_a_fit_are_scattered_within_what_was_measured():
+    series = Series(np.arange(9.0), np.full(9, 0.5), 0.01)
+    model = SimpleNamespace(free=("tilt",), scales=SimpleNamespace(angular_velocity=1.0), values={"tilt": 0.5})
+    data = SimpleNamespace(series={"tilt": series}, handed=True)
+    points = np.array(scattered(model, data))
+    assert 0.5 - FIRST * 0.01 <= points.min() < 0.47 and 0.53 < points.max() <= 0.5 + FIRST * 0.01
+
+
+def test_a_chi_square_is_good_up_to_one_standard_deviation_above_its_mean():
+    problem = SimpleNamespace(count=50)
+    limit = chi2(50).mean() + chi2(50).std()
+    assert Problem.good(problem, limit - 1e-6) and not Problem.good(problem, limit + 1e-6)
+
+
+def test_a_parabola_is_straight_however_high_its_lowest_point_is():
+    bounds = np.array([[-9.0], [9.0]])
+    assert known._straight(lambda x: np.array([x[0], 30.0]), np.zeros(1), np.ones(1), bounds)
+    assert not known._straight(lambda x: np.array([x[0] ** 2, 30.0]), np.zeros(1), np.ones(1), bounds)
+
+
+def test_where_nothing_changes_no_better_minimum_is_found():
+    problem = SimpleNamespace(bounds=np.array([[-1.0], [1.0]]), residuals=lambda x: np.array([3.0]))
+    error, _, better = known._far(problem, np.zeros(1), 9.0, 0, 1, np.array([0.1]), [])
+    assert error == np.inf and better is None
+
+
+def test_a_row_may_have_lost_its_last_separator_and_has_no_cell_too_many():
+    rows = [f"{t};1.0;{t}.5" for t in range(20)]
+    found = cells_of("\n".join(["t;a;b", *rows[:7], "7;1.0", *rows[8:]]))
+    assert found.values.shape == (20, 3) and np.isnan(found.values[7, 2])
+    with pytest.raises(MeasuredError, match="width"):
+        cells_of("\n".join(["t;a;b", *rows[:7], "7;1.0;7.5;9", *rows[8:]]))
+
+
+def test_a_file_that_is_too_large_is_refused_by_its_size_in_MB():
+    with pytest.raises(MeasuredError) as refused:
+        text_inside(bytes(PACKED + 500_000))
+    assert refused.value.numbers["size"] - refused.value.numbers["most"] == pytest.approx(0.5)
+
+
+# ---- threads ----
+
+
+def test_pieces_of_one_visitor_have_one_share_among_others():
+    """Three of them, each of which works for a TURN and rests then, take no more than one that works on."""
+    pool = Pool(2, "shares")
+    pool._working.update({"one": 3, "other": 1})
+    assert 3 * TURN / (TURN + pool.rest("one")) <= 1
+
+
+# ---- votes ----
+
+
+def test_a_store_keeps_a_class_for_longer_than_it_is_open(monkeypatch):
+    """A class's use is recorded late; the store may not delete it before its time."""
+    asked = []
+    monkeypatch.setattr(desk, "store", lambda where, lasts: asked.append(lasts))
+    monkeypatch.setattr(desk, "Rooms", lambda *_: None)
+    desk.Desk("a file")._opened()
+    assert LASTS < asked[0] < 2 * LASTS
