@@ -17,7 +17,8 @@ kernels: $(VENV)/serve
 # tests/conftest.py has how many processes; the tests of a file stay together, because many share a server, and
 # tests/durations.py has their order. To repeat an order: make test ORDER=--randomly-seed=SEED; ORDER=--shortest-first runs
 # the shortest files first.
-PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder \
+# Compiled modules are kept, whatever the environment says: each worker and each server would compile them again.
+PYTEST = PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder \
 	--max-worker-restart 0 $(ORDER)
 
 # About a minute: all tests except those that start a server or a browser, or take seconds.
@@ -105,10 +106,13 @@ bench: $(VENV)/bench $(VENV)/test kernels browser
 image:
 	docker build -t tippe-top-explorer .
 
-# Chromium for the tests: the installed one, else that of Debian or Ubuntu if we may install it, else playwright's.
+# Chromium for the tests: the shell without a window, whose pages cost a fifth of the processor; else the installed one,
+# else playwright's.
 browser: $(VENV)/test
-	@command -v chromium >/dev/null \
-	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium; } \
+	@command -v chromium-headless-shell >/dev/null \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq \
+	&& apt-get install -y -qq chromium-headless-shell; } \
+	|| command -v chromium >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && $(BIN)/playwright install --with-deps chromium; } \
 	|| $(BIN)/playwright install chromium
 

@@ -56,7 +56,8 @@ slider.on_change("value", lambda attr, old, new: source.update(
 curdoc().add_root(column(slider, fig))
 """
 
-# Leaves in window.bench the inputs [time, value] and for each part of the page the paints [time, value it showed].
+# Leaves in window.bench the inputs [time, value], the paints of the figure [time, value it showed], and those of the
+# page [time, what valueAt knows the value by].
 WATCH = """
 (ours) => {
   const bench = window.bench = {inputs: [], figure: [], page: []}
@@ -72,23 +73,32 @@ WATCH = """
     channel.port1.postMessage(0)
   }
   if (!ours) {
+    window.valueAt = (value) => value
     const plane = Bokeh.index.find_one(models.find((m) => m.name == "plane")), {data_source} = plane.model.renderers[0]
     plane.repainted.connect(() => ["figure", "page"].forEach((part) => painted(part, data_source.data.value[0])))
     return
   }
   const shown = () => Number(__tippe.plane.selected.K_J.toFixed(9)), motions = () => __tippe.top3d.motions
-  const moved = new MutationObserver(() => painted("figure", shown()))
+  // A motion begins at the smaller angle of its tieline, by which the value is found that it belongs to.
+  const angles = new Map()
+  window.valueAt = (angle) => [...angles].find(([known]) => Math.abs(known - angle) < 1e-6)?.[1]
+  const see = () => angles.set(__tippe.plane.selected.inner, shown())
+  const moved = new MutationObserver(() => (see(), painted("figure", shown())))
   moved.observe(__tippe.plane.bar, {attributes: true})
-  // The page is as old as the top on its table, whose motion comes after Fig. 6 has it, in another message.
+  see()
+  // The page is as old as the top on its table, whose motion comes in another message than Fig. 6.
   const lab = models.find((m) => m.data?.properties?.frames_rough).data
   let waiting = []
-  lab.properties.frames_rough.change.connect(() => waiting.push(
-    {value: shown(), motions: motions().received}))
+  lab.properties.frames_rough.change.connect(() => {
+    const sent = {motions: motions().received}
+    waiting.push(sent)
+    queueMicrotask(() => (sent.angle = new Float32Array(lab.curves_rough, 0, 2)[1] * Math.PI / 180))
+  })
   const look = () => {
     requestAnimationFrame(look)
     const whole = waiting.findLastIndex((sent) => motions().shown > sent.motions)
     if (whole < 0) return
-    painted("page", waiting[whole].value)
+    painted("page", waiting[whole].angle)
     waiting = waiting.slice(whole + 1)
   }
   look()
@@ -158,7 +168,8 @@ def serve(*command, path, **environment):
 
 
 SHOWN = """
-() => ["figure", "page"].every((part) => Math.abs(bench[part].at(-1)?.[1] - bench.inputs.at(-1)?.[1]) < 1e-6)
+() => [bench.figure.at(-1)?.[1], valueAt(bench.page.at(-1)?.[1])].every(
+  (value) => Math.abs(value - bench.inputs.at(-1)?.[1]) < 1e-6)
 """
 
 
@@ -184,7 +195,7 @@ def drag(page, handle):
 
 def delays(page):
     """Milliseconds from each input to the first paint of its value or a later one's: (figure, page)."""
-    bench = page.evaluate("bench")
+    bench = page.evaluate("({...bench, page: bench.page.map(([time, angle]) => [time, valueAt(angle) ?? NaN])})")
     times, values = np.array(bench["inputs"]).T
     found = []
     for part in ("figure", "page"):

@@ -131,6 +131,14 @@ def server():
         end(process)
 
 
+@pytest.fixture
+def explorer():
+    """An Explorer at rest, of the paper's top."""
+    from app.model.explorer import Explorer  # not for tests that need nothing of the app
+
+    return Explorer()
+
+
 @pytest.fixture(params=[(1400, 900)], ids=["1400x900"])
 def visit(request, server, chromium):
     """A Visit in a window of this size. Nothing moves by itself, because software drawing slows everything."""

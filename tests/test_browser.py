@@ -161,7 +161,7 @@ THROWN = f"{HAND}&spin=20&tilt=10&mu_k=.3&law=smoothed&eps=.1&table=three"
 
 def test_three_tables_side_by_side_go_by_one_clock(chromium, server):
     motions = scene_of("three", by_hand(seconds=6.0)).motions
-    with chromium.new_context(draws=True, viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
+    with chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce") as context:
         visit = Visit(context.new_page(), server + THROWN, whole=False)
         page = visit.page
         page.wait_for_function(f"window.__tippe?.tops && {TOPS}.length == 3")

@@ -11,7 +11,6 @@ from app.model.build.builder import Rocking
 from app.model.build.dimensions import FAMILIES, INSIDES, changed, sentence, value_of
 from app.model.build.inside import filled, inside
 from app.model.build.verdict import Verdict, verdict
-from app.model.explorer import Explorer
 from app.model.runs import Full, Runs, Stopped
 from app.tabs.build.build import Build
 from app.tabs.build.verdict import VerdictWords
@@ -24,11 +23,6 @@ from tippe_core import (
     TruncatedSphere,
     save_top,
 )
-
-
-@pytest.fixture
-def explorer():
-    return Explorer()
 
 
 def told(bench):

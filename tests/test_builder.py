@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from app.model.build.builder import Rocking
 from app.model.build.dimensions import changed, handles, pulled, value_of
 from app.model.build.inside import INSIDE, KINDS, filled, inside
-from app.model.explorer import Explorer
 from tippe_core import (
     PRESETS,
     BareSphere,
@@ -23,11 +22,6 @@ from tippe_core import (
     rocking_period,
     save_top,
 )
-
-
-@pytest.fixture
-def explorer():
-    return Explorer()
 
 
 @pytest.fixture

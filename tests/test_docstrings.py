@@ -1,7 +1,9 @@
 """The public names of tippe_core are documented as numpydoc has it: what comes in, goes out, and is raised."""
 
+import functools
 import inspect
 import re
+from types import FunctionType
 
 import pytest
 
@@ -13,6 +15,11 @@ FIELDS = {name: [field for field in (getattr(thing, "__dataclass_fields__", None
                  if not field.startswith("_")] for name, thing in PUBLIC.items()}  # fmt: skip
 SECTIONS = ("Parameters", "Attributes", "Returns", "Raises", "Notes")
 PLAIN = {"Solid"}  # not made by hand
+
+
+METHODS = {f"{name}.{method}": of for name, thing in PUBLIC.items() if inspect.isclass(thing)
+           for method, of in vars(thing).items() if not method.startswith("_")
+           and isinstance(of, FunctionType | classmethod | property | functools.cached_property)}  # fmt: skip
 
 
 def sections(thing):
@@ -35,6 +42,20 @@ def named(text):
 def test_a_function_says_what_it_takes_gives_and_raises(name):
     thing, found = PUBLIC[name], sections(PUBLIC[name])
     assert named(found["Parameters"]) == [*inspect.signature(thing).parameters] and found["Returns"].strip()
+    assert all(kind in ("TopError", "NoMotionError") for kind in named(found.get("Raises", "")))
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_method_says_what_it_takes_and_gives(name):
+    """One without parameters, and a property, says it in a sentence."""
+    thing = getattr(METHODS[name], "__func__", METHODS[name])
+    takes = (
+        [] if isinstance(thing, property | functools.cached_property) else [*inspect.signature(thing).parameters][1:]
+    )
+    found = sections(thing)
+    assert found[""].strip()
+    if takes:
+        assert named(found["Parameters"]) == takes and found["Returns"].strip()
     assert all(kind in ("TopError", "NoMotionError") for kind in named(found.get("Raises", "")))
 
 

@@ -11,7 +11,6 @@ import app.model.explorer
 import app.model.frames
 import app.model.region
 import app.model.scene
-from app.model.explorer import Explorer
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
 from app.model.scene import solve
 from app.model.start import GIVEN
@@ -23,11 +22,6 @@ from tippe_core import (
     TopError,
     roll,
 )
-
-
-@pytest.fixture
-def explorer():
-    return Explorer()
 
 
 def watch(explorer):

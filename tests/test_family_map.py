@@ -15,12 +15,6 @@ from tippe_core import (
 )
 from tippe_core.paper.share import GRID_M, GRID_V, PART, widths
 
-
-@pytest.fixture
-def explorer():
-    return Explorer()
-
-
 # --- families ---
 
 

@@ -152,10 +152,11 @@ def test_the_surface_holds_what_was_sent_reads_it_off_and_tells_what_was_picked(
     over_the_surface(page)
     page.mouse.down()
     page.mouse.up()
-    found.until(lambda: len(surface.picked) == 2)
-    row = np.abs(K_J - surface.picked[0]).argmin()
-    assert surface.picked[0] == pytest.approx(K_J[row])
-    assert np.abs(theta[row] - surface.picked[1]).min() < 1e-6
+    found.until(lambda: len(surface.hand) == 3)
+    grip, angle, up = surface.hand
+    row = np.abs(K_J - up).argmin()
+    assert grip == "tieline" and up == pytest.approx(K_J[row])
+    assert np.abs(theta[row] - angle).min() < 1e-6
     page.wait_for_function("window.__tippe.surface3d.readout.includes('rad')")
     assert f"E = {20 + K_J[row]:.4f}" in page.evaluate("window.__tippe.surface3d.readout")
 

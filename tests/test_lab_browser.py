@@ -147,6 +147,7 @@ def test_on_a_german_phone_nothing_covers_what_is_said_all_can_be_changed_and_ax
             page.locator("summary", has_text=fold).evaluate("summary => summary.parentElement.open = false")
             page.get_by_role("slider", name="Drehung").press("ArrowLeft")
             page.locator(".chip").wait_for()
+            assert page.locator(".lab").evaluate(SMALL) == []  # also the way back to it, in a sentence
     radius = page.get_by_label("Radius der Kugel").first
     radius.scroll_into_view_if_needed()
     for part in (radius, *(page.get_by_role("button", name=name) for name in ("Abspielen", "Los"))):

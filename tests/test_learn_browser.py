@@ -211,14 +211,16 @@ def presented(page):
 
 
 def fits(page):
-    """On a small projector, as on a large one, nothing of the big screen is below its edge."""
-    before = page.viewport_size
-    page.set_viewport_size({"width": 1280, "height": 720})
-    page.wait_for_function("() => innerHeight === 720")
-    for part in (".counted button:visible", "section.bar", ".foot"):
-        box = page.locator(f".lesson.present {part}").bounding_box()
-        assert box["y"] + box["height"] <= 720
-    page.set_viewport_size(before)
+    """On a small projector, as on a large one, nothing of the big screen is below its edge. It fills the screen, so its
+    window has no size that could be set."""
+    devtools = page.context.new_cdp_session(page)
+    for width, height in ((1280, 720), (1920, 1080)):
+        size = {"width": width, "height": height, "deviceScaleFactor": 0, "mobile": False}
+        devtools.send("Emulation.setDeviceMetricsOverride", size)
+        page.wait_for_function("height => innerHeight === height", arg=height)
+        for part in (".counted button:visible", "section.bar", ".foot"):
+            box = page.locator(f".lesson.present {part}").bounding_box()
+            assert box["y"] + box["height"] <= height
 
 
 def revealed(page, step):

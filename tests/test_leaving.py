@@ -94,6 +94,33 @@ def test_who_stays_keeps_his_page_in_whichever_order_the_others_come_and_go(here
     run(come_and_go(here, ORDERS[turn].split(), parts), PATIENCE)
 
 
+# --- what is given back
+
+
+def stands(page, room):
+    """The text that stands in the place of a room; "made" if it is the room itself."""
+    [place] = [id for id in page.visitor.find("panel.models.layout.Column", "name")
+               if page.now(id, "name") == f"place-of-{room}"]  # fmt: skip
+    texts = [str(page.now(child["id"], "text", "made")) for child in page.now(place, "children")]
+    return html.unescape("".join(texts))
+
+
+async def come_back(here):
+    page = await visitors.come(here.url)
+    for _ in range(2):
+        await page.head("room", "build-a-top")
+        await page.until(lambda: stands(page, "build-a-top") == "made")
+        await page.head("room", "lab")
+        await page.until(lambda: stands(page, "build-a-top") != "made")
+    await page.vanish()
+    await asyncio.to_thread(here.wait_for_sessions, 0)
+
+
+def test_a_room_that_was_left_long_ago_gives_its_parts_back_and_comes_again(here, idle, monkeypatch):
+    monkeypatch.setattr("app.widgets.rooms.AWAY", 0.5)
+    run(come_back(here), PATIENCE)
+
+
 # --- what fails
 
 
@@ -123,7 +150,7 @@ async def saves(page, filename):
 
 async def ask_of_a_broken_server(here, monkeypatch):
     page = await visitors.come(here.url, "de")
-    await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.head("share"))
+    await fails(page, monkeypatch, "app.widgets.codes.segno.make", lambda: page.head("share"))
     await page.head("share")  # and can be requested again
     table = await saves(page, "tippe-top-motion.csv")
     await fails(page, monkeypatch, "app.share.export.columns", lambda: page.set(table, "clicks", 1))
@@ -192,21 +219,15 @@ async def open_a_room_that_fails(here, monkeypatch):
     def sheets():
         return {page.now(id, "url") for id in page.visitor.find("ImportedStyleSheet")}
 
-    def said(room):
-        [place] = [id for id in page.visitor.find("panel.models.layout.Column", "name")
-                   if page.now(id, "name") == f"place-of-{room}"]  # fmt: skip
-        stands = [child["id"] for child in page.now(place, "children")]
-        return html.unescape("".join(str(page.now(id, "text", "made")) for id in stands))
-
     before = sheets()
     for left in (2, 1, 0):
         await page.head("room", "families")
         await page.until(lambda left=left: sum(map(len, failures)) == left
-                         and say("main.making.failed") in said("families"))  # fmt: skip
+                         and say("main.making.failed") in stands(page, "families"))  # fmt: skip
         await page.head("room", "build-a-top")  # another tab, after that
-        await page.until(lambda: said("build-a-top") == "made")
+        await page.until(lambda: stands(page, "build-a-top") == "made")
     await page.head("room", "families")
-    await page.until(lambda: said("families") == "made")
+    await page.until(lambda: stands(page, "families") == "made")
     assert any(page.now(each, "label") == say("family.map.start") for each in page.visitor.find("Button", "label"))
     assert before <= sheets() and not any("cdn" in url for url in sheets())
     await page.vanish()

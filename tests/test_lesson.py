@@ -11,6 +11,7 @@ from cases import BALL, LOADED, ORDINARY, PAPER, TOPS
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from app.model.colours import COLOURS
 from app.model.explorer import Explorer
 from app.model.lesson import lesson, runs
 from app.model.lesson.parts import Choice
@@ -50,6 +51,18 @@ def test_a_step_opens_its_motion_in_the_lab(name):
     assert not wrong and explorer.table in (*tops, "three") and (explorer.table == "three") == (len(tops) > 1)
     assert (explorer.spin, explorer.tilt, explorer.mu) == (start.spin, start.tilt, start.mu)
     assert explorer.shape == start.shape and explorer.law == start.law
+
+
+@pytest.mark.parametrize("step, drawn", [
+    ("arms", {"L_3": "omega", "L_z": "ink", "kept": "jellett"}),
+    ("jump", {"motion": "normal", "limit": "normal", "zero": "grey"}),
+    ("ties", {"lift": "normal", "motion": "accent"}),
+    ("slip", {"lift": "normal", "slip": "ink", "motion": "accent"}),
+])  # fmt: skip
+def test_a_quantity_has_the_colour_that_it_has_in_the_lab(step, drawn):
+    assert {curve.key: curve.colour for curve in answered(step).picture.curves} == {
+        key: COLOURS[colour] for key, colour in drawn.items()
+    }
 
 
 WORDED = TOPS | {"G at the pole": Top(-1.0, 0.731, 0.276), "far from O": Top(0.9, 0.919, 0.981)}

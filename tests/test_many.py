@@ -14,6 +14,7 @@ from tippe_core import (
     Scales,
     SmoothedCoulomb,
     State,
+    States,
     Top,
     TopError,
     TruncatedSphere,
@@ -233,3 +234,11 @@ def test_the_last_progress_is_the_whole():
     told = []
     slide(PAPER, State(0.3, 0, 0, 8.0), Coulomb(0.3), [0, 1000.0], progress=told.append)
     assert told == sorted(told) and told[-1] == 1.0
+
+
+def test_states_have_the_defaults_of_a_state():
+    """(All of its fields had to be given.)"""
+    tilts, spins = np.array([0.1, 0.4]), np.array([3.0, 9.0])
+    found = slide_many(PAPER, States(tilts, 0.0, 0.0, spins), Coulomb(0.3), 3.0)
+    given = slide_many(PAPER, State(tilts, 0.0, 0.0, spins), Coulomb(0.3), 3.0)
+    assert (found.theta_end == given.theta_end).all() and (found.reason == "").all()

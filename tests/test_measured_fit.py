@@ -61,12 +61,12 @@ def test_the_films_that_were_asked_of_have_the_truth_where_they_say():
     assert all(value is not None for row in rows for value in row["unknown"].values())
 
 
-def from_here(values, monkeypatch, times=2):
-    """From now on a fit starts at these values, and searches nowhere else: that it finds them is tested above. times:
-    how many fits have to agree; those that are not good, search.AGREEING."""
+def from_here(values, monkeypatch):
+    """From now on a fit starts at these values, once, and searches nowhere else: that it finds them is tested above."""
     monkeypatch.setattr(search, "GROWING", (1.0,))
+    monkeypatch.setattr(search, "AGREEING", 1)
     monkeypatch.setattr(search, "starts", lambda model, data: [
-        np.array([values.get(name, 0.0) for name in model.free])] * times)  # fmt: skip
+        np.array([values.get(name, 0.0) for name in model.free])])  # fmt: skip
     monkeypatch.setattr(search, "scattered", lambda model, data: [])
 
 
@@ -182,7 +182,7 @@ def test_a_slipping_top_is_told_from_a_rolling_one(monkeypatch):
     """By the model that the film was not made of: it is refused, and K_R does not stay. The stored fits of the examples
     have the other way round."""
     (kind, top, scales, truth), data = film(1002)
-    from_here(truth, monkeypatch, search.AGREEING)
+    from_here(truth, monkeypatch)
     assert kind == "smoothed"
     assert verdict(fit(model_of("rolling", top, scales), data), slipped()) == "slipped"
     assert not kept(data, top, scales)["K_R"].stayed

@@ -37,7 +37,7 @@ from tippe_core.linear import tumbling, tumbling_modes
 from tippe_core.motion import at, impact, preparing
 from tippe_core.motion.contacts import soften
 from tippe_core.motion.crowding import crowded, crowding, eta_halves
-from tippe_core.motion.implicit import slowness
+from tippe_core.motion.implicit import slowest_patch
 from tippe_core.motion.periodic import skip
 from tippe_core.motion.records import BALL, IMPACT, LAW, MOTION, OPEN, SLIP, STEM, STICK, new
 from tippe_core.motion.rolling import Rolling
@@ -109,9 +109,9 @@ def test_how_fast_a_slip_relaxes():
     P = preparing.problem(PAPER, Contensou(0.3, 0.05), EDGE, (0.0, 0.0), 1e-9)
     C = new(MOTION).contacts
     C.u[:, :2], C.F[:, :2], C.rho[:, 2] = [[3e-3, 4e-3], [6e-3, 8e-3]], [[0.03, 0.04], [0.3, 0.4]], [-0.9, -1.3]
-    found = slowness(0.2, (SLIP, SLIP), P, C)
-    assert found == pytest.approx((np.hypot(5e-3, 0.05 * 0.2), 50 * (1 + 1.3**2 / PAPER.I1)), rel=1e-12)
-    assert slowness(0.2, (SLIP, STICK), P, C)[1] == pytest.approx(10 * (1 + 0.9**2 / PAPER.I1), rel=1e-12)
+    found = slowest_patch(0.2, (SLIP, SLIP), P, C)
+    assert found == pytest.approx((BALL, np.hypot(5e-3, 0.05 * 0.2), 50 * (1 + 1.3**2 / PAPER.I1)), rel=1e-12)
+    assert slowest_patch(0.2, (SLIP, STICK), P, C)[2] == pytest.approx(10 * (1 + 0.9**2 / PAPER.I1), rel=1e-12)
 
 
 # ---- from one form of a state to another ----

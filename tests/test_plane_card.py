@@ -19,7 +19,7 @@ def card():
     card.explorer, card.slid = explorer, slid
 
     def show(scene):
-        card.show_selected(scene)
+        card.plane.show_selected(scene)
         card.plane.show_plane(scene)
         card.show_path(scene)
 
@@ -74,7 +74,7 @@ def test_a_move_of_a_hand_is_a_small_message(card):
     told = {}
     card.plane.param.watch(lambda *events: told.update({e.name: e.new for e in events}), ["state", "motion", "limits",
                                                                                       "field", "path"])  # fmt: skip
-    card.show_selected(Explorer(K_J=6.5).scene)
+    card.plane.show_selected(Explorer(K_J=6.5).scene)
     assert {*told} == {"state", "motion", "path"} and sum(map(len, told.values())) < 1500
 
 
@@ -85,7 +85,7 @@ def test_the_path_leaves_the_tieline_by_its_end_and_is_that_motions_alone(card):
     said = state(card)
     assert 0 < said["touches"] < len(theta) and np.degrees(said["touch"]) == pytest.approx(119, abs=0.5)
     before = card.explorer.scene
-    card.show_selected(Explorer(K_J=6.0).scene)
+    card.plane.show_selected(Explorer(K_J=6.0).scene)
     assert not card.plane.path and "touches" not in state(card)
     card.show_path(before)
     assert card.plane.path

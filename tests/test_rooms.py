@@ -1,5 +1,10 @@
 """A room comes after its view was created: what changes meanwhile leaves it whole."""
 
+import asyncio
+import gc
+import weakref
+from contextvars import ContextVar, copy_context
+
 import panel as pn
 import pytest
 from bokeh.document import Document
@@ -10,7 +15,7 @@ from app.model.runs import Runs
 from app.page.page import page
 from app.page.session import Session
 from app.widgets.form import Form
-from app.widgets.rooms import AWAY, Place
+from app.widgets.rooms import AWAY, Place, after_long
 
 MANY = 30  # parts
 
@@ -32,7 +37,7 @@ def test_a_lab_whose_level_changes_while_it_comes_is_whole(monkeypatch, level):
 
 def test_a_room_that_nobody_looks_at_gives_its_parts_back_and_comes_again_as_it_was(monkeypatch):
     made, later = [], []
-    monkeypatch.setattr("app.widgets.rooms.after", lambda seconds, act: later.append((seconds, act)))
+    monkeypatch.setattr("app.widgets.rooms.after_long", lambda *given: later.append(given))
 
     def make():
         made.append(Form(*(pn.pane.HTML(str(i)) for i in range(MANY))))
@@ -48,10 +53,10 @@ def test_a_room_that_nobody_looks_at_gives_its_parts_back_and_comes_again_as_it_
         made[0].others[7].object = "new"
         for _ in range(2):  # between the two the page looks again
             place.left()
-        (seconds, early), (_, late) = later
-        early()
+        (seconds, _, early), (_, _, late) = later
+        place._give_back(early)
         assert len(document.models) == many and seconds == AWAY
-        late()
+        place._give_back(late)
         assert len(document.models) == few
         place.ask()
         assert len(document.models) == many > few + MANY and len(made) == 1 and made[0].others[7].object == "new"
@@ -60,7 +65,7 @@ def test_a_room_that_nobody_looks_at_gives_its_parts_back_and_comes_again_as_it_
 def test_a_room_with_a_state_that_only_the_browser_has_stays(monkeypatch):
     """Such as the lesson with its guesses."""
     later = []
-    monkeypatch.setattr("app.widgets.rooms.after", lambda seconds, act: later.append(act))
+    monkeypatch.setattr("app.widgets.rooms.after_long", lambda *given: later.append(given))
     document = Document()
     with set_curdoc(document):
         place = Place("learn", lambda: pn.Column(pn.pane.HTML("a guess")), lambda act: act())
@@ -68,5 +73,35 @@ def test_a_room_with_a_state_that_only_the_browser_has_stays(monkeypatch):
         place.fill()
         many = len(document.models)
         place.left()
-        later[0]()
+        place._give_back(later[0][-1])
         assert len(document.models) == many
+
+
+class Room:
+    """Of a page, whose timers have it in their context."""
+
+    def __init__(self):
+        self.called = []
+
+    def call(self, *given):
+        self.called.append(given)
+
+
+def test_a_timer_of_ten_minutes_keeps_no_page():
+    """But calls one that is still there."""
+
+    async def later():
+        stays, goes, page = Room(), Room(), ContextVar("page")
+        for room in (stays, goes):
+            context = copy_context()
+            context.run(page.set, room)
+            context.run(after_long, 0.01, room.call, 7)
+        gone = weakref.ref(goes)
+        del goes, room, context
+        gc.collect()
+        assert gone() is None
+        while not stays.called:
+            await asyncio.sleep(0.01)
+        assert stays.called == [(7,)]
+
+    asyncio.run(asyncio.wait_for(later(), 60))

@@ -8,7 +8,6 @@ import app.model.explorer
 import app.model.frames
 import app.model.region
 import app.model.scene
-from app.model.explorer import Explorer
 from app.model.regimes import ROLLS
 from app.model.scene import Marks
 from tippe_core import (
@@ -44,11 +43,6 @@ TABLE = np.array(
         [8, 14.86605, 0.0945, 0.7991, 5.78017, 0.1328, 0.5837, 0.5837],
     ]
 )
-
-
-@pytest.fixture
-def explorer():
-    return Explorer()
 
 
 def test_fig_6_of_the_first_visit_is_the_papers_table(explorer):

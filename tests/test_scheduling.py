@@ -10,18 +10,12 @@ import app.model.explorer
 import app.model.frames
 import app.model.region
 import app.model.scene
-from app.model.explorer import Explorer
 from app.widgets.controls import Controls
 from app.widgets.scheduling import RenderScheduler
 from tippe_core import (
     Lathe,
     Top,
 )
-
-
-@pytest.fixture
-def explorer():
-    return Explorer()
 
 
 @pytest.fixture

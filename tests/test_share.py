@@ -13,7 +13,7 @@ from bokeh.document import Document
 from doubles import keeping
 from panel.io.state import set_curdoc
 
-import app.share.share
+import app.widgets.codes
 from app.model.lab.lab import Lab
 from app.model.runs import Run, Runs
 from app.page.page import page
@@ -80,8 +80,8 @@ def test_while_it_is_open_it_is_of_the_start_that_its_link_opens(opened, tab):
 def test_a_hand_that_moves_has_nothing_solved_for_it_and_nothing_drawn(opened, monkeypatch):
     seen = opened("?v=2&tab=lab")
     codes, solved, explorer = [], [], seen.session.explorer
-    real = app.share.share.segno.make
-    monkeypatch.setattr(app.share.share.segno, "make", lambda *a, **b: codes.append(a[0]) or real(*a, **b))
+    real = app.widgets.codes.segno.make
+    monkeypatch.setattr(app.widgets.codes.segno, "make", lambda *a, **b: codes.append(a[0]) or real(*a, **b))
     explorer.param.watch(lambda event: solved.append(event.new), "scene")
     for spin in (12.0, 13.0, 14.0):
         seen.session.lab_of.ask(spin=spin)

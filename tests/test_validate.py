@@ -23,11 +23,6 @@ NUMBERS = [value for value in VALUES if value != 1e308]  # which is unusual, but
 
 
 @pytest.fixture
-def explorer():
-    return Explorer()
-
-
-@pytest.fixture
 def scheduler(explorer):
     with set_curdoc(Document()):
         yield RenderScheduler(explorer)
@@ -71,10 +66,10 @@ def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, scheduler
     [[place], draws] = Rolling(scheduler, None, None).surface()
     draws["pictures"](explorer.scene)
     [surface] = place.select(Surface3D)
-    for name, right in (("hand", ("line", 0.5, 6.0)), ("picked", (6.0, 0.5))):
+    for right in (("line", 0.5, 6.0), ("tieline", 0.5, 6.0)):
         for value in NUMBERS:
             for sent in lists(value, *right):
-                setattr(surface, name, sent)
+                surface.hand = sent
     assert math.isfinite(explorer.scene.constants.K_J)
 
 

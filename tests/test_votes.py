@@ -27,7 +27,7 @@ KEY = re.compile(r"room=([\w.-]+)")
 SOON = """
 from app.model.votes import classroom, desk
 classroom.BETWEEN = desk.PHONES_EVERY = 0.0
-desk.PAUSE = 0.2
+desk.PAUSE, desk.LOOK_EVERY = 0.2, 0.05
 """
 served = partial(serves, code=SOON)
 

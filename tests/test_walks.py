@@ -43,7 +43,7 @@ SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room
 
 
 STATIONS = (
-    (Numbers, "_on_request"), (Rolling, "_on_plane"), (RenderScheduler, "ask"), (Explorer, "_solve"),
+    (Numbers, "_on_request"), (Rolling, "_grabbed"), (RenderScheduler, "ask"), (Explorer, "_solve"),
     (RenderScheduler, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"),
     (PlaneView, "show_selected"), (PlaneView, "show_plane"),
     (Controls, "show"), (Guide, "show"), (PlaneCard, "show_path"), (LabTab, "_heard"), (Lab, "ask"), (Lab, "_begin"),

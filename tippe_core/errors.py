@@ -104,8 +104,22 @@ class TopError(ValueError):
         return _anew, (type(self), self.name, self.value, *self._formats, self.code, self.numbers)
 
     def replaced(self, name: str, value: object, **numbers: Any) -> Self:
-        """The same error for a quantity with another name or in another unit: with these numbers in place of its
-        own."""
+        """The same error for a quantity with another name or in another unit.
+
+        Parameters
+        ----------
+        name : str
+            of the quantity
+        value : object
+            as it was given
+        **numbers
+            in place of its own, for its texts
+
+        Returns
+        -------
+        TopError
+            of the same class and code
+        """
         return type(self)(name, value, *self._formats, code=self.code, **self.numbers | numbers)
 
 

@@ -64,7 +64,18 @@ class Change:
     spin: float
 
     def holds(self, spin: Scalars) -> bool | Bools:
-        """Whether it is stable at this spin (of either sign); broadcasts."""
+        """Whether it is stable at a spin.
+
+        Parameters
+        ----------
+        spin : float or array
+            of either sign, (g/R)^1/2; broadcasts
+
+        Returns
+        -------
+        bool or array of bool
+            True where it is stable
+        """
         there = (np.abs(spin) > self.spin) == np.equal(self.stable, "above")
         found = np.equal(self.stable, "always") | (np.not_equal(self.stable, "never") & there)
         return found if np.ndim(found) else bool(found)

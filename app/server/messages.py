@@ -139,11 +139,10 @@ LENGTH = number(-1e4, 1e4)  # mm
 SHOWN = ("show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum",
          "follow")  # fmt: skip
 PICTURE = dict.fromkeys(SHOWN, FLAG) | {
-    "time": SIZE, "playing": FLAG, "speed": number(0, 100), "tilted": row(ANGLE, SIZE, COUNT, or_none=True),
+    "time": SIZE, "playing": FLAG, "speed": number(0, 100),
     "camera": row(NUMBER, NUMBER, NUMBER, or_none=True),
 }  # fmt: skip
-POINT = {"hand": row(one_of("end", "line", "point"), ANGLE, SIZE, or_none=True),
-         "picked": row(SIZE, ANGLE, or_none=True)}  # fmt: skip
+ON_PLANE = row(one_of("tieline", "line", "end", "point"), ANGLE, SIZE)
 
 # Of a class of models, its attributes that the browser changes.
 CHANGES = {
@@ -172,12 +171,12 @@ CHANGES = {
     "Look": {"dark": FLAG, "large": FLAG},
     "NumberControls": {"request": row(COUNT, SHORT, NUMBER | SHORT, FLAG)},
     "Painted": {"painted": COUNT},
-    "PlaneView": {"hand": row(one_of("tieline", "line", "end", "point"), ANGLE, SIZE), "pressed": row(COUNT, SHORT)},
+    "PlaneView": {"hand": ON_PLANE, "pressed": row(COUNT, SHORT)},
     "Phone": {"mark": text(32)},
     "SectionView": {"hand": row(SHORT, LENGTH, LENGTH), "tapped": row(COUNT, SHORT, LENGTH, LENGTH)},
     "ShareHead": {"closed": COUNT},
     "Stretch": {"pulled": row(COUNT, ON_SLIDER, ON_SLIDER)},
-    "Surface3D": POINT,
+    "Surface3D": {"hand": ON_PLANE},
     "TextFile": {"sent": row(text(LARGEST_FILE), COUNT, COUNT)},
     "Top3D": PICTURE,
     "TopsMap": {"state": PLAIN, "picked": row(COUNT, SHORT), "moved": row(COUNT, number(-1, 1), number(0.1, 10))},

@@ -4,7 +4,6 @@ import html
 from urllib.parse import parse_qs, urlsplit
 
 import param
-import segno
 
 from app.borrowed import at_once
 from app.model.runs import Runs
@@ -14,6 +13,7 @@ from app.state.names import is_local
 from app.state.url_state import shared
 from app.text import say
 from app.widgets.cards import column, words
+from app.widgets.codes import qr
 from app.widgets.rest import Rest
 
 # It covers the cards beside the stage, never the stage itself; as wide as those are in the Lab.
@@ -32,8 +32,8 @@ UNROLLED = ":host { max-height: none !important }"
 NOTICE = """
 :host { position: fixed; z-index: 15; inset: calc(48px * var(--type, 1) + 8px) 24px auto auto;
   width: auto !important; max-width: 560px }
-[role=alert] { background: #fff4e5; color: #5c3b00; padding: 8px 16px; border-radius: 8px;
-  box-shadow: 0 2px 8px rgb(0 0 0 / 30%) }
+[role=alert] { background: var(--card); color: var(--ink); border: 1px solid var(--control-line); border-radius: 8px;
+  padding: 8px 16px; box-shadow: 0 2px 8px rgb(0 0 0 / 30%) }
 @media (max-width: 700px) { :host { inset: auto 8px 64px } }
 """
 
@@ -131,7 +131,7 @@ class Share(param.Parameterized):
         self._settle()
         link, picture = self.link, self._head.picture
         if link != self._head.link:
-            picture = _code(link)
+            picture = qr(link, say("share.panel.qr"))
         at = None if self._playing.playing else self._playing.time * self._scene.scales.time
         wording = [
             say("share.panel.opens") if at is None or not self._rolls() else say("share.panel.opens_at", time=at),
@@ -153,12 +153,3 @@ class Share(param.Parameterized):
         self._files = Files(self._runs, self._playing, self._body, self._sheet, self._mail)
         self._saves = column(*self._files.view, visible=False, stylesheets=[UNROLLED])
         self.panel.objects = [self._head, self._saves]
-
-
-def _code(link):
-    """The link's QR code as an SVG; none if the link is too long."""
-    try:
-        code = segno.make(link, error="m", micro=False)
-    except segno.DataOverflowError:
-        return ""
-    return code.svg_inline(omitsize=True, dark="black", light="white", title=say("share.panel.qr"))

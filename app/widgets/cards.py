@@ -46,6 +46,12 @@ progress::-moz-progress-bar { background: var(--ink) }
 a, summary { color: var(--link) } summary { cursor: pointer; padding: 4px 0 }
 li > a { display: inline-block; padding: 5px 0 }
 """
+# For words that have a table.
+TABLE = """
+table { border-collapse: collapse; margin: 6px 0; font-size: inherit; font-variant-numeric: tabular-nums }
+td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: baseline }
+th { color: var(--faint) }
+"""
 
 WRAPS, ROOM = {"display": "flex", "flex-flow": "row wrap"}, {"gap": "24px", "padding": "12px 24px 24px"}
 

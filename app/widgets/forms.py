@@ -148,7 +148,6 @@ class Menu(Part):
 
     options = param.Dict(default={}, doc="{words: value}.")
     value = param.Parameter(doc="One of the values.")
-    is_beside = param.Boolean(default=False, doc="Whether the label is at its left instead of above.")
     SENDS = ("value",)
 
 

@@ -15,9 +15,8 @@ from tippe_core import Top, TruncatedSphere
 
 
 class PlaneCard:
-    """content: the figure, in a list. ask: called with inputs of the Explorer; slip: shows this motion on a table on
-    which it slips; runs: the page's Runs. show_selected() is for each
-    scene of a hand, plane.show_plane for the pictures, show_path() for a hand at rest."""
+    """plane: the figure. ask: called with inputs of the Explorer; slip: shows this motion on a table on which it slips;
+    runs: the page's Runs. show_path() is for the scene of a hand at rest."""
 
     def __init__(self, ask, slip, runs=None):
         self._runs, self._trajectory = runs or Runs(), None
@@ -30,9 +29,6 @@ class PlaneCard:
         _, road = validate.parts(event.new, validate.number, one_of(self._roads))
         with held():
             self._roads[road]()
-
-    def show_selected(self, scene):
-        self.plane.show_selected(scene)
 
     def show_path(self, scene):
         self._trajectory = scene.rolling

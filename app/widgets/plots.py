@@ -6,6 +6,7 @@ the line at the time of the clock) is on Bokeh's overlay level, which is repaint
 
 from pathlib import Path
 
+import numpy as np
 from bokeh.models import (
     AllIndices,
     AllLabels,
@@ -66,6 +67,15 @@ def padded(low, high):
     """The range with some margin below and above."""
     pad = 0.08 * (high - low) or 0.05
     return {"start": low - pad, "end": high + pad}
+
+
+def round_numbers(low, high):
+    """About four round numbers between two values."""
+    about = (high - low or 1) / 4
+    power = 10 ** np.floor(np.log10(about))
+    step = next(size * power for size in (1, 2, 5, 10) if size * power >= about)
+    first, last = int(np.ceil(low / step - 1e-9)), int(np.floor(high / step + 1e-9))
+    return [float(f"{step * i:.6g}") for i in range(first, last + 1)]
 
 
 def on_pointer(fig, act, *more):

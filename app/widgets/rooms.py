@@ -4,16 +4,19 @@ Until then its place says that it is being created, or that this failed."""
 
 import logging
 import time
+from contextvars import Context
 from functools import partial
+from weakref import WeakMethod
 
 import panel as pn
 import param
+from tornado.ioloop import IOLoop
 
 from app import turns
 from app.model.runs import connected_to, to_session
 from app.text import say
 from app.widgets.cards import alert, column, note, words
-from app.widgets.failure import after, attempt
+from app.widgets.failure import attempt
 from app.widgets.form import Form
 from app.widgets.forms import Button
 from app.widgets.hold import held
@@ -66,7 +69,11 @@ class Place:
     def left(self):
         """Its page looks elsewhere from now on: after a long time it gives its parts back."""
         self._left = time.monotonic()
-        after(AWAY, partial(self._give_back, self._left))
+        after_long(AWAY, self._is_away, self._left)
+
+    def _is_away(self, left):
+        if connected_to(self._document)():
+            self._post(partial(self._give_back, left))
 
     def _give_back(self, left):
         is_away = self._stands and left == self._left and not self.column.visible
@@ -140,6 +147,18 @@ class Place:
                 words(alert(say("main.making.failed")), margin=AROUND),
                 pn.Row(again, margin=(0, 28)),
             ]
+
+
+def after_long(seconds, method, *given):
+    """Calls a method on the loop's thread after so many seconds, unless its object is gone: a timer keeps its context,
+    and so a page, even when it is cancelled, so that this one has none."""
+    method = WeakMethod(method)
+
+    def act():
+        if (call := method()) is not None:
+            call(*given)
+
+    Context().run(IOLoop.current().call_later, seconds, act)
 
 
 class Rooms(param.Parameterized):

@@ -29,10 +29,9 @@ class Surface3D(Bundled):
     limit = param.Selector(default="lift-off", objects=["lift-off", "slip"], doc="Which limit `verge` is of.")
     hand = param.List(
         default=[],
-        doc="[grip, theta, K_J] of a hand on the floor, the browser writes it; grip: 'end' of the motion on display, "
-        "its 'line', or a 'point' that is on no tieline.",
+        doc="[grip, theta, K_J] of a hand, the browser writes it; grip: on the floor, 'end' of the motion on display, "
+        "its 'line', or a 'point' that is on no tieline; a 'tieline' of the surface.",
     )
-    picked = param.List(default=[], doc="[K_J, theta] of the point that was clicked; the browser writes it.")
 
 
 def show_surface(surface, scene):

@@ -52,19 +52,13 @@ class Top3D(Bundled, Playing):
         default=0.5, bounds=(0, None), doc="Coefficient of static friction: the tangent of the cone's half angle."
     )
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
-    label = param.String(default="", constant=True, doc="Its name; empty: that of the rolling top.")
+    label = param.String(default="", doc="What it shows, for screen readers; empty: the rolling top.")
     clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
     a = param.Number(
         default=None,
         doc="G's distance below O, in R, where O may leave its height of R: in flight, on a stem. None: it does not.",
     )
     bare = param.Boolean(default=False, constant=True, doc="Whether it has no bar that plays it.")
-    tiltable = param.Boolean(default=False, constant=True, doc="Whether the axis has a handle when the top is paused.")
-    tilted = param.List(
-        default=[],
-        doc="[theta, t, grasp] of a hand on the axis, the browser writes it: the tilt it asks for, the time at which "
-        "it took hold, and a number that is another one for each grasp.",
-    )
     speed = param.Number(default=1 / 16, doc="1 is the real top's own speed.")
 
 

@@ -79,6 +79,5 @@ test("a motion can begin with its axis leaning any way: it is turned as a whole 
 
 test("the handle is searched downhill on the sphere", () => {
   const aim = new Vector3(0.6, -0.64, 0.48), away = (n) => n.distanceTo(aim);
-  const around = (n) => [new Vector3(0, 0, 1).cross(n).normalize(), new Vector3(0, 0, 1).cross(n).normalize().cross(n)];
-  assert.ok(away(nearest(away, new Vector3(-0.1, 0.2, 0.97).normalize(), around)) < 1e-3);
+  assert.ok(away(nearest(away, new Vector3(-0.1, 0.2, 0.97).normalize())) < 1e-3);
 });

@@ -56,19 +56,23 @@ class BareSphere(Shape):
 
     @property
     def mass(self) -> float:
+        """M, kg."""
         return self.M
 
     @property
     def com(self) -> float:
+        """Height of G above O, m: -a in SI."""
         return -self.a * self.R
 
     @property
     def moments(self) -> tuple[float, float]:
+        """(I1, I3) at G, kg m^2."""
         unit = self.M * self.R**2
         return self.I1 * unit, self.I3 * unit
 
     @property
     def top(self) -> Top:
+        """Its a, I1 and I3, in units of R and M."""
         return Top(self.a, self.I1, self.I3)
 
     @cached_property
@@ -77,6 +81,23 @@ class BareSphere(Shape):
         return ball(self.R)
 
     def stl(self, sides: int = 128) -> bytes:
+        """Not possible.
+
+        Parameters
+        ----------
+        sides : int
+            flat faces around the axis
+
+        Returns
+        -------
+        bytes
+            never
+
+        Raises
+        ------
+        TopError
+            always: the inside is unknown
+        """
         raise TopError("shape", type(self).__name__, "a shape whose inside is known", "Give it dimensions to print it.",
                        code="inside-unknown")  # fmt: skip
 
@@ -114,5 +135,6 @@ class StemmedSphere(BareSphere):
 
     @cached_property
     def solid(self) -> Solid:
+        """Its outer surface; the distribution of mass inside is unknown."""
         meet = (self.h**2 + (self.R - self.r) * (self.R + self.r)) / (2 * self.h)
         return zone(self.R, -self.R, meet) + zone(self.r, meet, self.h + self.r, self.h)

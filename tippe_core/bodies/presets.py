@@ -32,6 +32,7 @@ class Preset:
 
     @property
     def top(self) -> Top:
+        """The Top that its source states, or that of its shape."""
         return self.stated or self.shape.top
 
 

@@ -90,15 +90,43 @@ class Shape:
         return Top(a=0.0 - self.com / self.R, I1=I1 / unit, I3=I3 / unit)
 
     def profile(self, n: int = 200) -> Array:
-        """The outline from the contact point (0, -R) to the body's top: radius and height above O (m), (n, 2). The
-        corners are exact.
+        """The outline from the contact point (0, -R) to the body's top.
 
-        Raises TopError where n is less than the number of corners.
+        Parameters
+        ----------
+        n : int
+            number of points; the corners are exact
+
+        Returns
+        -------
+        array (n, 2)
+            radius and height above O, m
+
+        Raises
+        ------
+        TopError
+            if n is less than the number of corners
         """
         return self.solid.profile(n)
 
     def stl(self, sides: int = 128) -> bytes:
-        """The body as a binary STL file (bytes), in mm; see Solid.stl."""
+        """The body as a solid for a printer; see Solid.stl.
+
+        Parameters
+        ----------
+        sides : int
+            flat faces around the axis
+
+        Returns
+        -------
+        bytes
+            a binary STL file, in mm
+
+        Raises
+        ------
+        TopError
+            if the inside is not known, or for another number of sides than is possible
+        """
         return self.solid.stl(sides)
 
     @cached_property
@@ -139,8 +167,23 @@ class Shape:
         return (angle, edge) if angle < pi - 1e-9 else (None, None)
 
     def with_mass(self, M: float) -> Self:
-        """The same body with its density, or densities, scaled so that its mass is M (kg); what is let into it
-        keeps its own."""
+        """The same body with its density, or densities, scaled; what is let into it keeps its own.
+
+        Parameters
+        ----------
+        M : float
+            its mass, kg
+
+        Returns
+        -------
+        Shape
+            of the same kind and dimensions
+
+        Raises
+        ------
+        TopError
+            if M is not positive, or not possible for it
+        """
         factor = weight(M) / self.mass
         return replace(self, **{name: _times(factor, getattr(self, name)) for name in self._weights})
 
@@ -187,10 +230,12 @@ class OneMaterial(Shape):
 
     @cached_property
     def solid(self) -> Solid:
+        """The body with its density."""
         return self.density * self.form + self.inlay
 
     @property
     def mass(self) -> float:
+        """M, kg."""
         return self.M
 
     @property

@@ -65,7 +65,25 @@ class TruncatedSphere(OneMaterial):
 
     @classmethod
     def from_density(cls, density: float, **dimensions: float) -> Self:
-        """The shape whose wood has this density (kg/m^3), instead of a mass."""
+        """The shape whose wood has this density, instead of a mass.
+
+        Parameters
+        ----------
+        density : float
+            of the wood, kg/m^3
+        **dimensions : float
+            all but M, as for the shape itself, m
+
+        Returns
+        -------
+        TruncatedSphere
+            with the mass that follows
+
+        Raises
+        ------
+        TopError
+            as the shape itself
+        """
         let_in = {name: dimensions.pop(name, 0.0) for name in ("disc", "thickness", "height")}
         whole = super().from_density(density, **dimensions)
         if not any(let_in.values()):
@@ -95,10 +113,12 @@ class TruncatedSphere(OneMaterial):
 
     @cached_property
     def inlay(self) -> Solid:
+        """The steel disc, if there is one."""
         return STEEL * self._place_of_disc if self.disc else Solid(())
 
     @cached_property
     def form(self) -> Solid:
+        """The wood, with the density 1 kg/m^3."""
         form, top, b = zone(self.R, -self.R, self.c), self.c + self.l, self.rounding
         if self.hole:
             form -= cylinder(self.hole, self.floor, self.c)
@@ -149,6 +169,7 @@ class Ball(OneMaterial):
 
     @cached_property
     def form(self) -> Solid:
+        """The ball, with the density 1 kg/m^3."""
         return ball(self.R)
 
 
@@ -189,6 +210,7 @@ class LoadedSphere(Shape):
 
     @cached_property
     def solid(self) -> Solid:
+        """The sphere with its core."""
         sphere = self.density * ball(self.R)
         if self.core_density == self.density:
             return sphere
@@ -239,6 +261,7 @@ class OrdinaryTop(OneMaterial):
 
     @cached_property
     def form(self) -> Solid:
+        """The body, with the density 1 kg/m^3."""
         face = self.h + self.t
         form = zone(self.R, -self.R, 0) + frustum(self.r1, self.r2, self.h, face)
         if self.h:
@@ -297,6 +320,7 @@ class Lathe(Shape):
 
     @cached_property
     def solid(self) -> Solid:
+        """The body, each part with its density."""
         densities = self.density if isinstance(self.density, tuple) else [self.density] * len(self.points)
         solid = densities[0] * zone(self.R, -self.R, self.points[0][1])
         for (r_low, low), (r_high, high), density in zip(self.points, self.points[1:], densities[1:], strict=False):

@@ -147,9 +147,24 @@ class Solid:
         return sum(encloses(outline) for outline in self.outlines)
 
     def profile(self, n: int) -> Array:
-        """(n, 2): radius and height above O (m) of the outer outline, from the lowest point on the axis to the highest.
+        """The outer outline, from the lowest point on the axis to the highest.
 
         Every corner is one of the points; the others are distributed over the arcs in proportion to their lengths.
+
+        Parameters
+        ----------
+        n : int
+            number of points
+
+        Returns
+        -------
+        array (n, 2)
+            radius and height above O, m
+
+        Raises
+        ------
+        TopError
+            if n is less than the number of corners
         """
         corners = len(self.outline) + 1
         whole("n", n, corners, 1_000_000, " (the corners)")
@@ -161,10 +176,24 @@ class Solid:
         return np.vstack([*rows, self.outline[-1].end])
 
     def stl(self, sides: int = 128) -> bytes:
-        """The surface, including cavities, as a binary STL file (bytes), with `sides` flat faces around the axis.
+        """The surface, including cavities, with axis 3 along z and O at the origin.
 
-        In mm, with axis 3 along z and O at the origin. The surface is closed: every edge belongs to two triangles, and
-        the normals point out of the solid.
+        It is closed: every edge belongs to two triangles, and the normals point out of the solid.
+
+        Parameters
+        ----------
+        sides : int
+            flat faces around the axis
+
+        Returns
+        -------
+        bytes
+            a binary STL file, in mm
+
+        Raises
+        ------
+        TopError
+            for another number of sides than is possible
         """
         return mesh.stl(self.outlines, sides)
 

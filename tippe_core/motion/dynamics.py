@@ -43,7 +43,7 @@ from .kinds import Modes
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record
 
 SLOW = 0.01  # ((gR)^1/2)
-STEADY = 10.0  # ((g/R)^1/2): rate at which numerical drift at closed contacts is damped
+STEADY = 1.0  # ((g/R)^1/2): rate at which numerical drift at closed contacts is damped
 SLOW_ROLLING = 1e-3  # ((g/R)^1/2): w_h below which rolling resistance goes to zero
 POLE = 1e-12  # sin(theta) below which the stem's lowest point is anywhere on its rim
 LOG_FAST = 100.0  # a trial step with a larger log|u| is too long anyway, and the exponential may overflow
@@ -118,6 +118,19 @@ def arrange(y: Array, slowest: int, modes: Modes, P: Record, C: Record) -> Turni
     return e, w, L3
 
 
+def from_direction(y: Array, i: int, unit: float, P: Record, C: Record) -> None:
+    """Changes n_x, n_y, n_z and sigma in y back into v_x, v_y and L_z: u = sigma unit (n_x, n_y) at contact i, which is
+    closed, and radius w_z = sigma unit n_z."""
+    e, size = turning(y, P)[0], y[at.SIGMA] * unit
+    ux, uy, w_z = size * y[at.NX], size * y[at.NY], size * y[at.NZ] / P.law.radius
+    # w_z = L_z/I1 + k (L . e) e_z
+    y[at.LZ] = (w_z - P.k * e[2] * (y[at.LX] * e[0] + y[at.LY] * e[1])) / (1 / P.I1 + P.k * e[2] * e[2])
+    e, w, _ = turning(y, P)
+    locate_contacts(e, w, P, C)
+    turns = cross(w, row(C.rho, i))
+    y[at.VX], y[at.VY], y[at.VZ], y[at.Z] = ux - turns[0], uy - turns[1], -turns[2], -C.rho[i, 2]
+
+
 def angular(torque: Vector, e: Vector, P: Record) -> Vector:
     """L'/I1 + k (L' . e) e: the part of w' due to a torque."""
     along = P.k * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
@@ -152,15 +165,23 @@ def holding(C: Record, n: int, i: int, M: Vector, pivots: bool) -> int:
     return column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if pivots else n
 
 
+def friction(w: Vector, i: int, P: Record, C: Record) -> Vector:
+    """(k u_x, k u_y, t) of contact i, which slips, unless C.friction has it already."""
+    if C.given != 1 + i:
+        ux, uy = C.u[i, 0], C.u[i, 1]
+        k, t = push(P.law, ux * ux + uy * uy, w[2])
+        C.friction[0], C.friction[1], C.friction[2] = k * ux, k * uy, t
+    return C.friction[0], C.friction[1], C.friction[2]
+
+
 def unknowns(w: Vector, modes: Modes, P: Record, C: Record) -> int:
     """Sets up the columns of all unknowns and returns their number."""
     n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING)
     rolls = -P.delta * w[0] / w_h, -P.delta * w[1] / w_h
     for i in range(1 + P.stem):
         if modes[i] == SLIP:
-            ux, uy = C.u[i, 0], C.u[i, 1]
-            k, t = push(P.law, ux * ux + uy * uy, w[2])
-            n = column(C, n, i, 2, (-k * ux, -k * uy, 1.0), (rolls[0], rolls[1], -t))
+            kx, ky, t = friction(w, i, P, C)
+            n = column(C, n, i, 2, (-kx, -ky, 1.0), (rolls[0], rolls[1], -t))
         elif modes[i] == STICK:
             n = holding(C, n, i, (rolls[0], rolls[1], 0.0), P.law.pivots and carried(modes) < 3)
     return n
@@ -227,9 +248,8 @@ def forces(turn: Turning, modes: Modes, P: Record, C: Record) -> float:
 def alone(turn: Turning, drag: Vector, free: Vector, i: int, P: Record, C: Record) -> float:
     """forces() if only contact i is closed, and slips: its N follows from u_z' = 0, which is linear in N."""
     (e, w, _), rho = turn, row(C.rho, i)
-    ux, uy, w_h = C.u[i, 0], C.u[i, 1], np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING)
-    k, t = push(P.law, ux * ux + uy * uy, w[2])
-    F, M = (-k * ux, -k * uy, 1.0), (-P.delta * w[0] / w_h, -P.delta * w[1] / w_h, -t)
+    w_h, (kx, ky, t) = np.sqrt(w[0] * w[0] + w[1] * w[1] + SLOW_ROLLING * SLOW_ROLLING), friction(w, i, P, C)
+    F, M = (-kx, -ky, 1.0), (-P.delta * w[0] / w_h, -P.delta * w[1] / w_h, -t)
     torque = cross(rho, F)
     torque = torque[0] + M[0], torque[1] + M[1], torque[2] + M[2]
     w_dot = angular(torque, e, P)

@@ -71,7 +71,7 @@ def first_event(W: Record, P: Record, slowest: int) -> tuple[Event, float]:
 def watch(W: Record, P: Record, slowest: int, x: float) -> None:
     """Computes the guards at the fraction x of the step."""
     C = W.contacts
-    at_share(W.step, x, W.step.at)
+    at_share(W, P, x, W.step.at)
     contacts.guards(W.step.at, slowest, modes_of(W), W.floor, P, W.step, C, W.guards)
 
 

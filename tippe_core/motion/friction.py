@@ -87,6 +87,7 @@ class Coulomb(_Friction):
 
     @property
     def law(self) -> Law:
+        """In the form that kernels use."""
         return Law(COULOMB, self.mu_k, self.mu_s)
 
 
@@ -115,6 +116,7 @@ class Viscous(_Friction):
 
     @property
     def law(self) -> Law:
+        """In the form that kernels use."""
         return Law(VISCOUS, self.gamma, 0.0)
 
 
@@ -144,6 +146,7 @@ class SmoothedCoulomb(_Friction):
 
     @property
     def law(self) -> Law:
+        """In the form that kernels use."""
         return Law(SMOOTHED, self.mu, 0.0, self.eps)
 
 
@@ -192,6 +195,7 @@ class Contensou(_Friction):
 
     @property
     def law(self) -> Law:
+        """In the form that kernels use."""
         patch = self.radius > 0
         return Law(CONTENSOU if patch else COULOMB, self.mu, self.mu, 0.0, self.radius, patch and bool(self.pivots))
 

@@ -1,7 +1,14 @@
 """One step of a linearly implicit method of order 5, for a patch that hardly slips and hardly spins.
 
-Contensou's law is stiff there: the slip relaxes at a rate of about k N, which grows as 1/|u|, to the value at which
-friction balances the other forces, and the steps of stepper.py would shrink with |u|. With f = dz/dtau, J = df/dz,
+Contensou's law is stiff there. Friction depends only on the direction n of s = (u_x, u_y, radius w_z), which relaxes at
+a rate of about k N, as 1/|s|, to that in which friction balances the other forces; the steps of stepper.py would shrink
+with |s|, and |s| itself changes slowly. So z has n and sigma = |s|/unit in place of v_x, v_y and L_z, where the unit is
+|s| at the start of the step:
+
+    sigma' = n . s'/unit ,   n' = [s' - (n . s') n]/(unit sigma) .
+
+With v and L_z in their place |s| would be the small difference of large numbers, and a step that changes n by dn would
+change it by dn^2. With f = dz/dt, J = df/dz,
 
     [1/(gamma h) - J] U_i = f(z + sum_j a_ij U_j) + sum_j c_ij U_j/h ,   i = 0 ... 7 ,
     new z = z + sum_j a_8j U_j ,   error: U_7 ,
@@ -15,10 +22,11 @@ import numpy as np
 from ..types import Array
 from . import at
 from .contacts import margin
-from .dynamics import rates, time_scale, turning
+from .dynamics import arrange, from_direction, rates, slip_rate, time_scale, turning
 from .elimination import decompose, substitute
+from .friction import push
 from .kinds import Modes
-from .records import NO_ONE, SLIP, Record, modes_of
+from .records import BALL, NO_ONE, SLIP, STICK, Record, modes_of
 from .stepper import STAGES, stage
 
 IMPLICIT_ORDER = 5
@@ -56,60 +64,96 @@ H_IJ = np.array([
     [11.419903575922262, 2.8879645146136994, 72.92137995996029, 80.12511834622643, -52.072871366152654,
      -59.78993625266729, -0.15582684282751913, 4.883087185713722],
 ])  # fmt: skip
-FEEDS = np.array([0, 1, 2, 3, 5, 6, 7, 8, 9])  # the components on which the rates depend: p, L, v_x and v_y
+FEEDS = np.array([0, 1, 2, 3, 5, 6, 7, 8, 9, 14])  # the components on which the rates depend: p, L_x, L_y, n and sigma
 STIFF = 4.0  # relaxation times of the slip in a step; those of stepper.py are stable up to about 6
 CREEPING_SLIP = 1e-3  # ((gR)^1/2): slip above which implicit steps are hardly longer than others
-DIFFERENCE = 1e-8  # ((gR)^1/4): times the root of the slip, the change of v for a difference quotient
+DIFFERENCE, OF_SIGMA = 1e-8, 1e-4  # the changes of z, and of sigma, for a difference quotient
+SLIP_TOLERANCE = 1e-2  # of sigma and n at most
 TOLERANCE = 5e-9  # the least tolerance of an implicit step
 
 
-def slowness(w_z: float, modes: Modes, P: Record, C: Record) -> tuple[float, float]:
-    """The least slip speed, including that of the spin, of the contacts that slip, and the fastest relaxation of a
-    slip, k N (1 + z^2/I1) with the height z of G above the contact; after forces()."""
-    least, fastest = np.inf, 0.0
+def slowest_patch(w_z: float, modes: Modes, P: Record, C: Record) -> tuple[int, float, float]:
+    """The contact with the least slip, the slip including that of the spin, of those that slip; and the fastest
+    relaxation of a slip, k N (1 + z^2/I1) with the height z of G above the contact; after forces()."""
+    slowest, least, fastest = NO_ONE, np.inf, 0.0
     for i in range(1 + P.stem):
         if modes[i] == SLIP:
             u = np.hypot(C.u[i, 0], C.u[i, 1])
-            least = min(least, np.hypot(u, P.law.radius * w_z))
+            size = np.hypot(u, P.law.radius * w_z)
+            if size < least:
+                slowest, least = i, size
             if u > 0.0:
                 k_N = np.hypot(C.F[i, 0], C.F[i, 1]) / u
                 fastest = max(fastest, k_N * (1 + C.rho[i, 2] ** 2 / P.I1))
-    return least, fastest
+    return slowest, least, fastest
 
 
 def is_stiff(W: Record, P: Record, h: float) -> bool:
-    """Whether stability would limit the steps of stepper.py, after a step of length h to step.new, whose slip it keeps
-    in W.slip."""
-    C, modes = W.contacts, modes_of(W)
-    w_z = turning(W.step.new, P)[1][2]
-    W.slip, fastest = slowness(w_z, modes, P, C)
-    return W.slip < CREEPING_SLIP and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * fastest > STIFF
+    """Whether stability would limit the steps of stepper.py, after a step of length h to step.new. If the ball sticks,
+    the slip of the stem has one direction only, and nothing relaxes."""
+    S, C, modes = W.step, W.contacts, modes_of(W)
+    if modes[BALL] == STICK:
+        return False
+    w_z = turning(S.new, P)[1][2]
+    W.creeps, slip, fastest = slowest_patch(w_z, modes, P, C)
+    return slip < CREEPING_SLIP and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * fastest > STIFF
 
 
-def rates_in_time(z: Array, modes: Modes, P: Record, C: Record, out: Array) -> float:
-    """rates(), as dz/dt."""
-    minor = rates(z, NO_ONE, modes, P, C, out)
+def to_direction(W: Record, P: Record) -> None:
+    """Changes v_x, v_y and L_z in step.z into n and sigma = 1."""
+    S, C, i = W.step, W.contacts, W.creeps
+    S.creeps = i
+    _, w, _ = arrange(S.z, NO_ONE, modes_of(W), P, C)
+    S.unit = np.sqrt(C.u[i, 0] ** 2 + C.u[i, 1] ** 2 + (P.law.radius * w[2]) ** 2)
+    S.z[at.NX], S.z[at.NY], S.z[at.NZ] = C.u[i, 0] / S.unit, C.u[i, 1] / S.unit, P.law.radius * w[2] / S.unit
+    S.z[at.SIGMA], S.z[at.Z] = 1.0, 0.0
+    S.scale[at.NX] = S.scale[at.NY] = min(S.scale[at.VX] / S.unit, SLIP_TOLERANCE)
+    S.scale[at.NZ] = S.scale[at.SIGMA] = min(S.scale[at.LZ] / P.I1 * P.law.radius / S.unit, S.scale[at.NX])
+
+
+def creeping_rates(z: Array, W: Record, P: Record, out: Array) -> float:
+    """Writes dz/dt into out; returns what forces() returns. Friction has all the digits of n, which u has not."""
+    S, C, modes, i, radius = W.step, W.contacts, modes_of(W), W.step.creeps, P.law.radius
+    S.y[:] = z
+    from_direction(S.y, i, S.unit, P, C)
+    k, t = push(P.law, z[at.NX] * z[at.NX] + z[at.NY] * z[at.NY], z[at.NZ] / radius)
+    C.friction[0], C.friction[1], C.friction[2] = k * z[at.NX], k * z[at.NY], t
+    C.given = 1 + i
+    minor = rates(S.y, NO_ONE, modes, P, C, out)
+    C.given = 0
     g = out[at.TIME]
-    for i in range(16):
-        out[i] /= g
+    for j in range(16):
+        out[j] /= g
+    w = turning(S.y, P)[1]
+    x, y, turns = slip_rate(w, i, 0, C), slip_rate(w, i, 1, C), radius * C.w_dot[2]
+    square = z[at.NX] * z[at.NX] + z[at.NY] * z[at.NY] + z[at.NZ] * z[at.NZ]
+    grows = (x * z[at.NX] + y * z[at.NY] + turns * z[at.NZ]) / square
+    size = S.unit * z[at.SIGMA]
+    out[at.NX], out[at.NY] = (x - grows * z[at.NX]) / size, (y - grows * z[at.NY]) / size
+    out[at.NZ], out[at.SIGMA], out[at.Z] = (turns - grows * z[at.NZ]) / size, grows / S.unit, 0.0
     return minor
 
 
 def differentiate(W: Record, P: Record) -> None:
-    """Writes dz/dtau at step.z into step.K[0], and J, column by column, into step.J."""
-    S, C, modes = W.step, W.contacts, modes_of(W)
-    rates_in_time(S.z, modes, P, C, S.K[0])
-    w = turning(S.z, P)[1]
-    slip = slowness(w[2], modes, P, C)[0]
-    small = DIFFERENCE * np.sqrt(slip)
+    """Changes step.z by to_direction(); writes dz/dt there into step.K[0], and J, column by column, into step.J."""
+    S = W.step
+    to_direction(W, P)
+    creeping_rates(S.z, W, P, S.K[0])
     S.at[:] = S.z
     for n in range(len(FEEDS)):
         i = FEEDS[n]
-        S.at[i] += small if i > at.PW else small / (1 + abs(w[0]) + abs(w[1]) + abs(w[2]))
-        rates_in_time(S.at, modes, P, C, S.K[1])
+        S.at[i] += OF_SIGMA if i == at.SIGMA else DIFFERENCE
+        creeping_rates(S.at, W, P, S.K[1])
         for j in range(16):
             S.J[j, n] = (S.K[1, j] - S.K[0, j]) / (S.at[i] - S.z[i])
         S.at[i] = S.z[i]
+
+
+def until_half(W: Record) -> float:
+    """How long the slip takes to be half as large, as it changes now, after differentiate(); n then relaxes twice as
+    fast as the Jacobian says, and in a longer step its stages would diverge."""
+    grows = W.step.K[0, at.SIGMA]
+    return -0.5 / grows if grows < 0.0 else np.inf
 
 
 def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
@@ -126,7 +170,7 @@ def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
         f = S.K[min(s, 1)]
         if s > 0:
             stage(S.z, U, A_IJ[s], s, 1.0, S.at)
-            minor = rates_in_time(S.at, modes, P, C, f)
+            minor = creeping_rates(S.at, W, P, f)
             near = min(near, margin(S.at, minor, modes, P, C))
         stage(f, U, C_IJ[s], s, 1 / h, S.at)
         for r in range(n):
@@ -140,12 +184,13 @@ def implicit_step(W: Record, P: Record, h: float) -> tuple[float, float]:
         for r in range(n):
             U[s, FEEDS[r]] = right[r]
     stage(S.z, U, A_IJ[PARTS], PARTS, 1.0, S.new)
-    minor = rates(S.new, NO_ONE, modes, P, C, S.K[STAGES])
     polynomial(S)
-    square = 0.0
+    square, slips = 0.0, S.new[at.SIGMA] > 0.0
     for i in range(16):
         square += (U[PARTS - 1, i] / S.scale[i]) ** 2
-    return np.sqrt(square / 16), min(near, margin(S.new, minor, modes, P, C))
+    from_direction(S.new, S.creeps, S.unit, P, C)
+    minor = rates(S.new, NO_ONE, modes, P, C, S.K[STAGES])
+    return np.sqrt(square / 16) if slips else np.inf, min(near, margin(S.new, minor, modes, P, C))
 
 
 def polynomial(S: Record) -> None:

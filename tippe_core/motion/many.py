@@ -19,7 +19,7 @@ from . import at, events, preparing
 from .dynamics import carried
 from .friction import Friction
 from .kinds import STARTS, TOUCHES
-from .nudge import beside, checked_nudge
+from .nudge import as_high, beside, checked_nudge
 from .periodic import run_all
 from .poses import sample_at
 from .records import LOG, OPEN, SAMPLE, Record, modes_of, new
@@ -37,21 +37,21 @@ class States(NamedTuple):
     Attributes
     ----------
     theta, theta_dot, omega2, omega3, phi, psi, x, y, vx, vy, z, vz : array
-        as in State; z, vz nan where a contact carries
+        as in State, with its defaults; z, vz nan where a contact carries
     """
 
     theta: Array
     theta_dot: Array
     omega2: Array
     omega3: Array
-    phi: Array
-    psi: Array
-    x: Array
-    y: Array
-    vx: Array
-    vy: Array
-    z: Array
-    vz: Array
+    phi: Array = 0.0  # type: ignore[assignment]
+    psi: Array = 0.0  # type: ignore[assignment]
+    x: Array = None  # type: ignore[assignment]
+    y: Array = None  # type: ignore[assignment]
+    vx: Array = None  # type: ignore[assignment]
+    vy: Array = None  # type: ignore[assignment]
+    z: Array = None  # type: ignore[assignment]
+    vz: Array = None  # type: ignore[assignment]
 
 
 @dataclass(frozen=True, eq=False)
@@ -286,7 +286,7 @@ def _compute(row: Any, cell: tuple[Any, ...], how: _How) -> None:
     _run_to_end(row, state, P, t_end, how)
     if how.nudge is not None:
         near = np.zeros((), RESULT)[()]
-        _run_to_end(near, beside(state, how.nudge, P), P, t_end, how)
+        _run_to_end(near, as_high(state, beside(state, how.nudge), P), P, t_end, how)
         row["growth"] = abs(near["state"][0] - row["state"][0]) / abs(how.nudge)
 
 

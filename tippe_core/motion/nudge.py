@@ -47,7 +47,7 @@ def sensitivity(
     nudge = checked_nudge(nudge)
     moved = slide(top, state, friction, times, **how)
     P = preparing.problem(top, friction, preparing.checked_edge(how.get("edge")), (0.0, 0.0), 1e-9)
-    return growth(moved, slide(top, beside(state, nudge, P), friction, times, **how), nudge)
+    return growth(moved, slide(top, as_high(state, beside(state, nudge), P), friction, times, **how), nudge)
 
 
 def checked_nudge(nudge: float) -> float:
@@ -58,7 +58,7 @@ def checked_nudge(nudge: float) -> float:
 
 
 @checked
-def beside(state: State, nudge: float, P: Record | None = None) -> State:
+def beside(state: State, nudge: float) -> State:
     """The State with a larger theta, or a smaller one if theta is 1 rad or more.
 
     Parameters
@@ -67,18 +67,20 @@ def beside(state: State, nudge: float, P: Record | None = None) -> State:
         of one motion
     nudge : float
         the change of theta, rad
-    P : Record or None
-        of the motion (preparing.problem()): with it a State with z is as high above the table as before
 
     Returns
     -------
     State
         with the other fields as they are
     """
-    theta = state.theta + (nudge if state.theta < 1 else -nudge)
-    if P is None or state.z is None:
-        return replace(state, theta=theta)
-    return replace(state, theta=theta, z=state.z + preparing.height(P, theta) - preparing.height(P, state.theta))
+    return replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
+
+
+def as_high(state: State, near: State, P: Record) -> State:
+    """near, but in flight as high above the table as the State."""
+    if state.z is None:
+        return near
+    return replace(near, z=state.z + preparing.height(P, near.theta) - preparing.height(P, state.theta))
 
 
 @checked

@@ -60,7 +60,7 @@ def turns(W: Record, P: Record, out: Array) -> None:
     """Writes (t, phi, psi, x, y, theta) at a maximum or minimum of theta in the last step into out."""
     S, angles = W.step, W.angles.copy()
     densely(W, P, NO_ONE, S.new[at.TIME] - S.z[at.TIME])
-    at_share(S, zero(up_rate_at, 0.0, 1.0, (S, P)), S.at)
+    at_share(W, P, zero(up_rate_at, 0.0, 1.0, (W, P)), S.at)
     continue_angles(S.at, angles)
     out[0], out[1], out[2] = S.at[at.TIME], angles[0] + angles[1], angles[0] - angles[1] + S.at[at.CHI]
     out[3], out[4] = S.at[at.X], S.at[at.Y]

@@ -52,18 +52,20 @@ PROBLEM = kind(a=float, I1=float, I3=float, k=float, law=LAW, stem="i8", b=float
 IMPACT = kind(W=(4, 4), start=(4,), scale=float, J=(4,), K=(13, 4), at=(4,), new=(4,), allowed=(4,))
 
 # The values at one instant. For ball and stem: rho, rho', u, u' without the contact forces, F, M (torques in addition
-# to rho x F), heights above the table. G: v and z of G. Then v', L', w'; the columns, the force and the torque about G
-# of each unknown; the contact, and the component of its u', to which each belongs; the equations for them; an impact.
-CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(2, 3), height=(2,), G=(4,), v_dot=(3,),
-                L_dot=(3,), w_dot=(3,), columns=(7, 6), owner=("i8", (7,)), part=("i8", (7,)), matrix=(7, 7),
-                right=(7,), impact=IMPACT)  # fmt: skip
+# to rho x F), heights above the table. (k u_x, k u_y, t) of a contact, and 1 + the contact of which it is known
+# beforehand. G: v and z of G. Then v', L', w'; the columns, the force and the torque about G of each unknown; the
+# contact, and the component of its u', to which each belongs; the equations for them; an impact.
+CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(2, 3), height=(2,), friction=(3,),
+                given="i8", G=(4,), v_dot=(3,), L_dot=(3,), w_dot=(3,), columns=(7, 6), owner=("i8", (7,)),
+                part=("i8", (7,)), matrix=(7, 7), right=(7,), impact=IMPACT)  # fmt: skip
 
 # A step of stepper.py: the rates at its stages, z before and after it and at a stage, the scales of z, the coefficients
-# of the polynomial; and those of implicit.py: its stages, the Jacobian and the equations for a stage. Of the step that
-# is begun, if one is: its length, the part of it that is taken, the time and the event at the end of that part, the
-# normal force at its end, the slowest contact, whether tau is the time.
+# of the polynomial; and those of implicit.py: its stages, the Jacobian and the equations for a stage, y there,
+# the contact that creeps, the unit of its slip. Of the step that is begun, if one is: its length, the part of it that
+# is taken, the time and the event at the end of that part, the normal force at its end, the slowest contact, whether
+# tau is the time.
 STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16),
-            U=(8, 16), J=(16, 9), matrix=(9, 9), pivots=("i8", (9,)), right=(9,),
+            U=(8, 16), J=(16, 10), matrix=(10, 10), pivots=("i8", (10,)), right=(10,), y=(16,), creeps="i8", unit=float,
             begun="i8", h=float, share=float, until=float, event=("i8", (2,)), N=float, slowest="i8",
             timed="?")  # fmt: skip
 
@@ -78,7 +80,7 @@ LOG = kind(t=float, name="i8", supports="i8")
 # have just opened), the angles of poses.py, the next step, the guards; the numbers of samples, of events, of entries of
 # the log and of steps; whether a stretch begins, whether the rates at y are in step.K; the slowest contact with its
 # log|u| and beta, and whether beta is kept steady; whether the next step is to be implicit, and whether the last one
-# was; the least slip of a patch.
+# was; the contact that then creeps.
 MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(HALTS, 2), samples="i8",
               events="i8", logged="i8", steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8",
-              stiff="i8", implicit="i8", slip=float, step=STEP, contacts=CONTACTS, summary=SUMMARY)  # fmt: skip
+              stiff="i8", implicit="i8", creeps="i8", step=STEP, contacts=CONTACTS, summary=SUMMARY)  # fmt: skip

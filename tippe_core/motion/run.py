@@ -10,7 +10,7 @@ from .dynamics import arrange, forces, rates
 from .events import first_event, happens
 from .friction import is_point
 from .impact import halted
-from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff
+from .implicit import IMPLICIT_ORDER, TOLERANCE, differentiate, implicit_step, is_stiff, until_half
 from .kinds import HALTS, LEAVES, NONE, SLIPS, Event
 from .poses import continue_angles, record
 from .records import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, Record, modes_of
@@ -25,7 +25,6 @@ FIRST_STEP = 1e-3  # (R/g)^1/2: the first step; the following ones grow fast
 SHORTEST_STEP = 1e-13  # (R/g)^1/2: the smallest step
 NEAR_EVENT = 0.1  # a guard this close to 0 is examined along the step
 SLIPS_LITTLE = 1e-3  # the least relative accuracy of a slip
-OF_SLIP, SLIP_DIGITS = 0.01, 1e-10  # the tolerance of an implicit step: at most so much of the slip, but not less
 LEAP = 2.0  # a slip grows by exp(LEAP) in one step at most: the error of the polynomial through the step is not
 # controlled, and the exponential would magnify it
 STIFF_DIRECTION = 10.0  # if beta relaxes so many times faster than log|u| changes, it is kept at its steady value
@@ -91,7 +90,7 @@ def advance(W: Record, P: Record, log: Array, times: Array, rows: Array, end: fl
     while W.samples < len(times) and times[W.samples] <= S.until:
         t = times[W.samples]
         x = (t - y[at.TIME]) / S.h if S.timed else stepper.when(S, t)
-        stepper.at_share(S, x, S.at)
+        stepper.at_share(W, P, x, S.at)
         sample(W, P, S.at, S.slowest, t, rows)
     if sampled(W, times):
         return OVER, BALL
@@ -120,7 +119,7 @@ def begin_step(W: Record, P: Record, log: Array, times: Array, end: float) -> No
         event, share = (NONE, BALL), stepper.when(S, end)
     t = S.new[at.TIME] if share == 1.0 else (y[at.TIME] + share * S.h if timed else within(S, share, at.TIME))
     S.begun, S.share, S.until, S.event[0], S.event[1] = 1, share, end if over else min(t, end), event[0], event[1]
-    stepper.at_end(S, share)
+    stepper.at_end(W, P, share)
     watch_tilt(W, P, log, slowest, S.h, share, dense)
 
 
@@ -128,7 +127,7 @@ def end_step(W: Record, P: Record) -> Event:
     """Moves y to the end of the step, or of its part before an event; returns the event or NONE."""
     S, event = W.step, (W.step.event[0], W.step.event[1])
     S.begun = 0
-    stepper.at_end(S, S.share)
+    stepper.at_end(W, P, S.share)
     before = moved(W, P, S.slowest, S.until)
     if event[0] == NONE and S.share == 1.0:
         event = comes_to_rest(W, P, S.slowest, before)
@@ -169,11 +168,10 @@ def change_variables(W: Record, P: Record) -> int:
 
 
 def scales(W: Record, P: Record, slowest: int) -> None:
-    """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy. An implicit
-    step must not change the direction of a slip that is smaller than its tolerance."""
+    """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy."""
     y, S, tolerance = W.y, W.step, P.tolerance
     if W.stiff:
-        tolerance = min(max(tolerance, TOLERANCE), max(OF_SLIP * W.slip, SLIP_DIGITS))
+        tolerance = max(tolerance, TOLERANCE)
     L = max(P.I1, np.sqrt(y[at.LX] * y[at.LX] + y[at.LY] * y[at.LY] + y[at.LZ] * y[at.LZ]))
     v = max(1.0, np.sqrt(y[at.VX] * y[at.VX] + y[at.VY] * y[at.VY] + y[at.VZ] * y[at.VZ]))
     S.scale[:] = tolerance
@@ -192,6 +190,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
     S, order = W.step, IMPLICIT_ORDER if W.stiff else stepper.ORDER
     if W.stiff:
         differentiate(W, P)
+        most = min(most, until_half(W))
     while True:
         h = min(W.h, most)
         found, near = implicit_step(W, P, h) if W.stiff else try_step(W, P, slowest, h)

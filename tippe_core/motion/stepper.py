@@ -10,7 +10,7 @@ from scipy.integrate import DOP853
 from ..paper.search import zero
 from ..types import Array
 from . import at
-from .dynamics import rates
+from .dynamics import from_direction, rates
 from .records import Record, modes_of
 
 A, B, E3, E5 = (np.ascontiguousarray(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
@@ -115,18 +115,21 @@ def within(S: Record, x: float, i: int) -> float:
     return S.z[i] + total
 
 
-def at_share(S: Record, x: float, out: Array) -> None:
+def at_share(W: Record, P: Record, x: float, out: Array) -> None:
     """Writes the polynomial at the fraction x of the step into out."""
+    S = W.step
     for i in range(16):
         out[i] = within(S, x, i)
+    if W.implicit:
+        from_direction(out, S.creeps, S.unit, P, W.contacts)
 
 
-def at_end(S: Record, share: float) -> None:
+def at_end(W: Record, P: Record, share: float) -> None:
     """Writes the end of the step, or of its part up to the fraction share, into step.at."""
     if share == 1.0:
-        S.at[:] = S.new
+        W.step.at[:] = W.step.new
     else:
-        at_share(S, share, S.at)
+        at_share(W, P, share, W.step.at)
 
 
 def lateness(x: float, S: Record, t: float) -> float:

@@ -47,7 +47,7 @@ def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: 
     """Notes what is noted in the step of length h from step.z, up to the fraction share, from the polynomial of the
     step, and once that counts the range of theta. dense: whether the polynomial is computed already."""
     T, S = W.summary, W.step
-    e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[at.TIME], S.at[at.TIME]
+    e, rate, e1, rate1, begins, ends = up(W.y), up_rate(W.y, P), up(S.at), up_rate(S.at, P), W.y[at.TIME], S.at[at.TIME]
     first, last, turns, counts = noted_values(e, rate), noted_values(e1, rate1), rate * rate1 < 0.0, ends >= T.since
     # whether e_z may pass through 0 twice
     changes = turns and e * rate < 0.0 and min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) * (ends - begins)
@@ -59,20 +59,20 @@ def watch_tilt(W: Record, P: Record, log: Array, slowest: int, h: float, share: 
         return
     if not dense:
         densely(W, P, slowest, h)
-    turn = zero(up_rate_at, 0.0, share, (S, P)) if turns else share
-    at_share(S, turn, S.at)
+    turn = zero(up_rate_at, 0.0, share, (W, P)) if turns else share
+    at_share(W, P, turn, S.at)
     if counts and within(S, turn, at.TIME) >= T.since:
         widen(T, S.at)
     middle = noted_values(up(S.at), up_rate(S.at, P))
     if counts and begins < T.since:
-        at_share(S, when(S, T.since), S.at)
+        at_share(W, P, when(S, T.since), S.at)
         widen(T, S.at)
     for n in range(len(NOTED)):
         if (first[n] > 0.0) != (middle[n] > 0.0):
-            noted(W, log, NOTED[n], within(S, zero(noted_at, 0.0, turn, (S, P, n)), at.TIME))
+            noted(W, log, NOTED[n], within(S, zero(noted_at, 0.0, turn, (W, P, n)), at.TIME))
         if (middle[n] > 0.0) != (last[n] > 0.0):
-            noted(W, log, NOTED[n], within(S, zero(noted_at, turn, share, (S, P, n)), at.TIME))
-    at_end(S, share)
+            noted(W, log, NOTED[n], within(S, zero(noted_at, turn, share, (W, P, n)), at.TIME))
+    at_end(W, P, share)
 
 
 def up(y: Array) -> float:
@@ -92,13 +92,13 @@ def widen(T: Record, y: Array) -> None:
     T.least, T.most = min(T.least, theta), max(T.most, theta)
 
 
-def noted_at(x: float, S: Record, P: Record, n: int) -> float:
+def noted_at(x: float, W: Record, P: Record, n: int) -> float:
     """Value n of noted_values() at the fraction x of the step."""
-    at_share(S, x, S.at)
-    return noted_values(up(S.at), up_rate(S.at, P))[n]
+    at_share(W, P, x, W.step.at)
+    return noted_values(up(W.step.at), up_rate(W.step.at, P))[n]
 
 
-def up_rate_at(x: float, S: Record, P: Record) -> float:
+def up_rate_at(x: float, W: Record, P: Record) -> float:
     """up_rate() at the fraction x of the step."""
-    at_share(S, x, S.at)
-    return up_rate(S.at, P)
+    at_share(W, P, x, W.step.at)
+    return up_rate(W.step.at, P)

@@ -146,15 +146,45 @@ class Trajectory:
         return replace(self, events=events, supports=supports, notes=notes, **arrays)
 
     def until(self, count: int, time: float, event: str) -> Self:
-        """The Trajectory of the first `count` instants, which then ends at this time with this event."""
+        """The first part of it, which then ends with an event.
+
+        Parameters
+        ----------
+        count : int
+            number of instants that it keeps
+        time : float
+            of the event, (R/g)^1/2
+        event : str
+            what happens there
+
+        Returns
+        -------
+        Trajectory
+            without the later events, supports and notes
+        """
         events, supports, notes = (tuple(x for x in each if x[0] < time)
                                    for each in (self.events, self.supports, self.notes))  # fmt: skip
         return replace(self[:count], events=(*events, (time, event)), supports=supports or self.supports[:1],
                        notes=notes)  # fmt: skip
 
     def at(self, t: float) -> State:
-        """The State at the time t, within its times: linear between the two nearest instants. x, y are those of G; z
-        and vz too while nothing carries it."""
+        """The State at one time: linear between the two nearest instants.
+
+        Parameters
+        ----------
+        t : float
+            within its times, (R/g)^1/2
+
+        Returns
+        -------
+        State
+            x, y are those of G; z and vz too while nothing carries it
+
+        Raises
+        ------
+        TopError
+            if t is outside its times
+        """
         t = finite("t", t)
         in_time = np.argsort(self.t, kind="stable")
         times = self.t[in_time]

@@ -56,7 +56,18 @@ class Constants(Compared):
         set_arrays("constants", self, finite=True)
 
     def two_E_prime(self, top: Top) -> Scalars:
-        """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33), in MgR. Correctly rounded for scalars."""
+        """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33).
+
+        Parameters
+        ----------
+        top : Top
+            the top to which the constants belong
+
+        Returns
+        -------
+        float or array
+            MgR; correctly rounded for scalars
+        """
         if any(np.ndim(x) for x in (self.K_J, self.K_R, self.E)):
             return eq.two_E_prime(self.E, self.K_J, self.K_R, top)
         return float(Exact.of(self, top).e)
@@ -65,7 +76,24 @@ class Constants(Compared):
     def from_state(cls, top: Top, theta: float, theta_dot: float, omega2: float, omega3: float) -> Self:
         """The constants of the rolling motion that passes through a state, by (30), (31) and (6).
 
-        theta in rad, in [0, pi]; theta_dot, omega2 (about 2') and omega3 (about 3) in (g/R)^1/2.
+        Parameters
+        ----------
+        top : Top
+            the top
+        theta : float
+            rad, in [0, pi]
+        theta_dot, omega2, omega3 : float
+            angular velocities about 1', 2' and 3, (g/R)^1/2
+
+        Returns
+        -------
+        Constants
+            in units of R, M and g
+
+        Raises
+        ------
+        TopError
+            for a state that is not possible, as State()
         """
         exact = Exact.of_state(State(theta, theta_dot, omega2, omega3), top)
         with localcontext(EXACT):

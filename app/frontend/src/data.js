@@ -110,3 +110,9 @@ export const tidy = (number, digits = 3) => local(String(Number(number.toPrecisi
 
 /** @param {number} angle in rad */
 export const degrees = (angle) => (180 / Math.PI) * angle;
+
+/** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+
+// Whether two boxes overlap.
+/** @param {Box} a @param {Box} b */
+export const meets = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;

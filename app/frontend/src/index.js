@@ -39,7 +39,6 @@ import { renderShareHead as ShareHead } from "./widgets/share_head.js";
 import { renderSection as SectionView } from "./widgets/section.js";
 import { renderSymbols as Symbols } from "./widgets/symbols.js";
 import { renderTopsMap as TopsMap } from "./widgets/tops_map.js";
-import { renderLiveText as LiveText } from "./widgets/live_text.js";
 import { renderPhoto as Photo } from "./widgets/photo.js";
 
 offerCallbacks();
@@ -49,7 +48,7 @@ window.__tippe = { time: timeOf, tops: topsOf, wear }; // for tests only: there 
 // Panel finds a component by the name of its Python class.
 const components = {
   Address, Button, Checks, Choice, Connection, Copy, Download, Drawing, Embed, Failure, Field, Film, FilmStage, Fold, Form, Frame, Guide, Head,
-  LabView, LessonView, Lines, Look, MeasuredFile, Menu, EventList, NumberControls, Painted, Paper, Phone, Photo, PlaneView, LiveText,
+  LabView, LessonView, Lines, Look, MeasuredFile, Menu, EventList, NumberControls, Painted, Paper, Phone, Photo, PlaneView,
   SectionView, ShareHead, Steps, Stretch, Surface3D, Symbols, TextFile, Top3D, TopsMap,
 };
 export default { ...Object.fromEntries(Object.entries(components).map(([name, render]) => [name, { render }])), first, letter, site };

@@ -29,8 +29,8 @@ export const style = `
 .labels .handle:active::after { content: attr(data-wording); position: absolute; left: 28px; top: -16px; padding: 2px 8px; border-radius: 999px;
   font-weight: 600; background: var(--pill); color: var(--scene-ink); }
 .labels .handle:focus-visible { outline: 3px solid var(--scene-ink); outline-offset: 2px; }
-.note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: #fff4e5;
-  color: #5c3b00; box-shadow: 0 1px 4px #0003; }
+.note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: var(--pill);
+  color: var(--scene-ink); box-shadow: 0 1px 4px #0003; }
 .verdict { position: absolute; left: 12px; bottom: 44px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;
   border-radius: 999px; font-weight: 600; background: var(--pill); color: var(--scene-ink); box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .verdict::before { content: ""; width: 10px; height: 10px; border-radius: 50%; background: var(--verdict); }

@@ -11,7 +11,7 @@ const scene = {
 const looks = {
   light: { ink: colours.ink, faint: "#55606c", rule: "#d8dce0", "control-line": colours.faint, card: "#ffffff" },
   "light large": { ink: "#000000", faint: "#26323d", rule: "#c9d0d7", "control-line": "#4a5661", card: "#ffffff" },
-  dark: { ink: "#eef2f5", faint: "#a9b4bf", rule: "#2d363f", "control-line": "#75818d", card: "#0e1318" },
+  dark: { ink: onDark.ink, faint: "#a9b4bf", rule: "#2d363f", "control-line": "#75818d", card: "#0e1318" },
   "dark large": { ink: "#ffffff", faint: "#e3e8ed", rule: "#4a5661", "control-line": "#c4ccd4", card: "#0e1318" },
 };
 

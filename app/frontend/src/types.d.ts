@@ -51,8 +51,7 @@ type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
 
 interface TopModel extends Model, Record<Part3D, boolean> {
   before?: Before | null;
-  degrees?: boolean; // the text of the handle
-  letGo?(): void; // called when the axis is released
+  pulled?: { to(theta: number, azimuth: number): void; letGo(): void }; // what a hand on the axis asks for, rad
   flick?: Hand;
   pushes?: Pushed[];
   frames: Bytes;
@@ -64,8 +63,6 @@ interface TopModel extends Model, Record<Part3D, boolean> {
   clock: string;
   a: number | null;
   bare?: boolean; // without a bar of its own
-  tiltable: boolean;
-  tilted: [theta: number, t: number, grasp: number, azimuth?: number] | [];
   azimuth?: number; // rad: as of Frames
   playing: boolean;
   speed: number;
@@ -89,8 +86,7 @@ interface SurfaceModel extends Model {
   selected_curve: Bytes;
   theta_max: number;
   limit: "lift-off" | "slip";
-  hand: [grip: "end" | "line" | "point", theta: number, K_J: number] | [];
-  picked: [K_J: number, theta: number] | [];
+  hand: [grip: "end" | "line" | "point" | "tieline", theta: number, K_J: number] | [];
 }
 
 interface SectionModel extends Model {
@@ -135,9 +131,7 @@ interface FieldModel extends Model {
   wrong: [why: string, nearest: string, back: string] | [];
 }
 
-interface MenuModel extends ChoiceModel {
-  is_beside: boolean;
-}
+type MenuModel = ChoiceModel;
 
 interface ChecksModel extends Model {
   label: string;
@@ -274,9 +268,6 @@ interface CopyModel extends Model {
   button: [before: string, after: string];
 }
 
-interface SaidModel extends Model {
-  text: string;
-}
 
 interface AddressModel extends Model {
   search: string;

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.model.colours import COLOURS, GREY
+from app.model.colours import COLOURS, GREY, INK
 from app.model.lesson.parts import FEW, Answer, Curve, Picture, Point, level, limit_words, selected, tied
 from app.model.scene import Scene
 from tippe_core import Constants, allowed_shares, f, f1_squared, normal_force, pole_constants, tielines
@@ -52,7 +52,7 @@ def jump(scene: Scene) -> Answer:
     limit = tielines(top, [float(constants.K_J)], float(constants.K_R))
     E, inner, outer, verge = (float(x[0]) for x in (limit.E, limit.theta_inner, limit.theta_outer, limit.theta_verge))
     theta = np.linspace(*scene.turning, 121)[1:-1]
-    curves = [Curve("motion", COLOURS["theta"], np.degrees(theta), normal_force(theta, top, constants))]
+    curves = [Curve("motion", COLOURS["normal"], np.degrees(theta), normal_force(theta, top, constants))]
     if not np.isfinite(E):
         truth = "never"
     else:
@@ -81,5 +81,5 @@ def slip(scene: Scene) -> Answer:
         "lost": lost, "left": 100 - lost, "mu_s": mu_s, "ratio": scene.ratio.max(), "K_J": scene.constants.K_J,
         "E": scene.constants.E, "slips": limit_words(scene.marks.slip), "jumps": limit_words(scene.marks.lift),
     }  # fmt: skip
-    curves = (tied(lift, "lift", COLOURS["normal"]), tied(slips, "slip", COLOURS["friction"]), selected(scene))
+    curves = (tied(lift, "lift", COLOURS["normal"]), tied(slips, "slip", INK), selected(scene))
     return Answer(lost, numbers, Picture("degrees", "K_J", curves))

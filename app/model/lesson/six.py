@@ -81,7 +81,7 @@ def arms(scene: Scene) -> Answer:
     whole = 100 / L_3[0]
     thin = slice(None, None, 2)
     curves = tuple(Curve(key, COLOURS[colour], t[thin], (whole * values)[thin], dash) for key, colour, values, dash in (
-        ("L_3", "omega", L_3, "solid"), ("L_z", "momentum", L_z, "dashed"), ("kept", "jellett", kept, "solid")
+        ("L_3", "omega", L_3, "solid"), ("L_z", "ink", L_z, "dashed"), ("kept", "jellett", kept, "solid")
     ))  # fmt: skip
     return Answer(truth, numbers, Picture("t", "share", curves))
 

@@ -46,7 +46,8 @@ class Built:
         if scene.shape is not None:
             radius, height = 1e3 * scene.shape.profile(POINTS).T
             mass, wide, high = (written(x, ".3g") for x in (1e3 * scene.shape.mass, 2 * radius.max(), np.ptp(height)))
-            self.size.object = f"<b>{say('build.spin.size', mass=mass, wide=wide, high=high)}</b>"
+            size = say("build.spin.size", mass=mass, wide=wide, high=high)
+            self.size.object, self.top.label = f"<b>{size}</b>", f"{say('build.spin.top')}. {size}"
 
 
 def standing(top):

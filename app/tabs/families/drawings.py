@@ -5,6 +5,7 @@ import html
 import numpy as np
 
 from app.text import say, written
+from app.widgets.plots import round_numbers
 
 WIDTH = 480  # px: that of the column on a wide page; on a phone the letters are enlarged, as the figure shrinks
 LETTERS = """svg { font-size: 12px } [font-style=italic] { font-family: Georgia, serif }
@@ -109,7 +110,7 @@ def plane(shown, mu_s):
     for theta in (0, 1, 2, 3):
         drawing.text(theta, 0, written(theta, "g"), 'text-anchor="middle"', shift=(0, 18))
     drawing.text(end, 0, f"{THETA} (rad)", 'text-anchor="end"', shift=(0, 36))
-    for value in _round_steps(pole):
+    for value in round_numbers(*sorted((0, pole))):
         drawing.path([0, end], [value / pole] * 2, pen(RULE, 1))
         drawing.text(0, value / pole, written(value, "g"), 'text-anchor="end"', shift=(-5, 4))
     steady, lift, slip, part = shown.lift.theta_steady, shown.lift, shown.slip, shown.part
@@ -132,13 +133,6 @@ def plane(shown, mu_s):
         _name(drawing, words, curve, beyond, part, at)
     _name(drawing, say("family.key.steady"), steady, np.fmin(np.fmin(left, first), steady), part, 0.1, side=-1)
     return drawing.svg
-
-
-def _round_steps(most):
-    """0, and two to five round numbers up to most."""
-    size = 10 ** np.floor(np.log10(abs(most)))
-    step = next(step for step in (0.2, 0.5, 1.0, 2.0) if abs(most) / (step * size) <= 5) * size
-    return np.sign(most) * step * np.arange(int(abs(most) / step + 1e-9) + 1)
 
 
 def _name(drawing, words, curve, beyond, part, at, side=1):

@@ -6,7 +6,6 @@ from functools import partial
 import numpy as np
 import param
 
-from app.model.colours import COLOURS
 from app.model.lab.event_list import events_of
 from app.model.lab.nudged import hits, nudged
 from app.model.runs import LATER, Run
@@ -16,7 +15,7 @@ from app.tabs.lab.figures import LEDGER, Times, Well
 from app.tabs.lab.rolling import Rolling
 from app.tabs.lab.words import ball_words, run_words, scatter_words, table_words
 from app.text import say, written
-from app.widgets.cards import TYPE, column, note, swatch, words
+from app.widgets.cards import TABLE, TYPE, column, note, swatch, words
 from app.widgets.drawing import drawn
 from app.widgets.event_list import EventList
 from app.widgets.failure import unless_stopped
@@ -28,13 +27,10 @@ from app.widgets.tops_map import TopsMap
 ROLLING = ("which", "surface", "portraits")  # panels of the motion on a rough table
 AUTO, WHOLE = "auto", {"height": "max-content", "max-height": "none"}
 AROUND = ":host { padding: 12px 24px 12px var(--edge, 0) } @media (max-width: 1199px) { :host { padding: 12px 16px } }"
-TABLE = (
-    f":host {{ --kept: {COLOURS['normal']} }}"
+KEPT = (
+    TABLE
     + """
-table { border-collapse: collapse; margin: 6px 0 0; font-size: inherit }
-td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
-th { color: var(--faint) } .kept { font-weight: 600 } .kept::before { content: "● "; color: var(--kept) }
-.line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
+.kept { font-weight: 600 } .kept::before { content: "● "; color: var(--normal) } .says { margin: 6px 0 0 }
 """
 )
 
@@ -161,7 +157,7 @@ class Research(param.Parameterized):
 
     def _make_values(self):
         happened = EventList(clock="lab", sizing_mode="stretch_width", margin=(4, 0, 0, 0))
-        kept, scatters, of_run = words(style=TABLE), words(style=TABLE), words()
+        kept, scatters, of_run = words(style=KEPT), words(style=KEPT), words()
 
         def show(scene):
             table = scene.watched

@@ -12,7 +12,6 @@ from app.widgets.cards import column, words
 from app.widgets.controls import named
 from app.widgets.drawing import drawn
 from app.widgets.forms import Choice
-from app.widgets.live_text import live_text
 from app.widgets.plane_card import PlaneCard
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.surface3d import Surface3D, show_surface
@@ -29,7 +28,7 @@ class Switch:
     def __init__(self, title, *kinds, soon):
         self._kinds, self._made, self._scene = kinds, {}, None
         self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
-        self._says = live_text(styles={"min-height": "2.8em"})
+        self._says = words(styles={"min-height": "2.8em"})
         self._switch = Choice({say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)}, 0)
         self._switch.param.watch(lambda event: soon(partial(self._look, event.new)), "value")
         self.view = column(words(f"<h2>{title}</h2>"), self._switch, *self._places, self._says, height=HALF)
@@ -55,7 +54,7 @@ class Switch:
         if chosen not in self._made:
             return self._look(chosen)
         self._made[chosen].show(scene)
-        self._says.text = self._made[chosen].words(scene)
+        self._says.object = self._made[chosen].words(scene)
 
 
 class Rolling:
@@ -65,15 +64,15 @@ class Rolling:
 
     def __init__(self, scheduler, runs, slip):
         self._pacer, self._runs, self._slip, self._scene = scheduler, runs, slip, None
-        self.kept = live_text()
+        self.kept = words()
 
     def plane(self):
         card = PlaneCard(self._pacer.ask, self._slip, self._runs)
-        card.plane.param.watch(validate.handler(self._on_plane), "hand")
+        card.plane.param.watch(validate.handler(partial(self._grabbed, limit="slip")), "hand")
 
         def select(scene):
             self._scene = scene
-            card.show_selected(scene)
+            card.plane.show_selected(scene)
 
         place = column(card.plane, styles={"height": HIGH})
         return [place], {"hand": select, "pictures": card.plane.show_plane, "still": card.show_path}
@@ -81,7 +80,7 @@ class Rolling:
     def surface(self):
         surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])
         at_once(surface, "hand")
-        surface.param.watch(validate.handler(self._on_surface), ["hand", "picked"])
+        surface.param.watch(validate.handler(lambda event: self._grabbed(event, self._scene.plane.limit)), "hand")
 
         def draw(scene):
             self._scene = scene
@@ -105,24 +104,15 @@ class Rolling:
     def say(self, scene):
         """Says what a unit of time is, and how well the constants of a rolling motion stay; nothing of None."""
         if scene is None:
-            self.kept.text = ""
+            self.kept.object = ""
             return
         unit = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
         kept = say("roll.says.kept", drift=power(scene.drift))
-        self.kept.text = f'<div class="axis">{unit}</div><div class="axis key">{kept}</div>'
+        self.kept.object = f'<div class="axis">{unit}</div><div class="axis key">{kept}</div>'
 
     # ---- requests by hand ----
 
-    def _grabbed(self, grip, theta, K_J, limit):
+    def _grabbed(self, event, limit):
         """A request from the (K_J, theta) plane; limit: that of the tielines in the picture."""
+        grip, theta, K_J = validate.parts(event.new, validate.text, validate.number, validate.number)
         self._pacer.ask(**pulled(self._scene, grip, theta, K_J, limit))
-
-    def _on_plane(self, event):
-        self._grabbed(*validate.parts(event.new, validate.text, validate.number, validate.number), "slip")
-
-    def _on_surface(self, event):
-        if event.name == "hand":
-            grip, theta, K_J = validate.parts(event.new, validate.text, validate.number, validate.number)
-        else:
-            grip, (K_J, theta) = "tieline", validate.parts(event.new, validate.number, validate.number)
-        self._grabbed(grip, theta, K_J, self._scene.plane.limit)

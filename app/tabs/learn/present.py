@@ -5,7 +5,6 @@ from itertools import pairwise
 
 import numpy as np
 import panel as pn
-import segno
 
 from app.model.lesson import lesson
 from app.model.lesson.parts import Choice
@@ -13,6 +12,7 @@ from app.model.votes.ballots import Away
 from app.model.votes.classroom import Refused
 from app.state.names import VOTE, is_local, query
 from app.tabs.learn.poll import Counter, page_address, question_of, refusal
+from app.widgets.codes import qr
 
 BINS = 12
 
@@ -36,7 +36,7 @@ class Teacher:
 
     def __init__(self, kept, now, show):
         self._kept, self._now, self._show = kept, now, show
-        self._counter, self._room, self._wish, self._busy, self._sentence = Counter(), None, None, False, ""
+        self._counter, self._room, self._wish, self._busy = Counter(), None, None, False
         self.come_back()
 
     def come_back(self):
@@ -141,7 +141,7 @@ class Teacher:
             "code": room.code, "address": address, "step": room.step, "shown": room.shown, "counts": found,
             "voted": len(room.votes), "phones": max(room.phones, len(room.votes)), "wording": sentence,
             "local": is_local(pn.state.location.hostname),
-            "picture": segno.make(address, error="m", micro=False).svg_inline(light="white", omitsize=True, border=2),
+            "picture": qr(address, border=2),
         })  # fmt: skip
 
     def _forget(self, sentence):

@@ -6,7 +6,7 @@ import param
 
 from app.bundle import Bundled, pack
 from app.model import published
-from app.model.colours import COLOURS
+from app.model.colours import ACCENT, GREY, INK
 from app.model.runs import Run
 from app.model.setup import TOYS
 from app.state import names
@@ -15,8 +15,8 @@ from app.text import listed, say
 from app.widgets.cards import card, grid, tall, words
 from app.widgets.failure import unless_stopped
 
-DRAWN = {"coulomb": ("#5b6875", ""), "smoothed": (COLOURS["theta"], "dashed"), "patch": (COLOURS["normal"], ""),
-         "stepped": ("#c0392b", "dotted")}  # fmt: skip
+DRAWN = {"coulomb": (GREY, ""), "smoothed": (INK, "dashed"), "patch": (INK, ""), "stepped": (ACCENT, "dotted")}
+"""{law: colour and dash} of the tilt; the last is that of the step that is chosen."""
 
 
 def _opens(toy, spin, tilt, law="contact", **numbers):

@@ -94,9 +94,8 @@ class MapFigure:
         named = listed("maps.ends")
         for word, end in zip(self.words, ends.NAMES, strict=True):
             own = level.end == end
-            room = distance_transform_edt(np.pad(own, 1), sampling=(WIDE, 1))[1:-1, 1:-1]  # for a name, which is wide
-            room[[0, -1]] = 0  # a name there would be cut off
-            if colour != "end" or own.mean() < LEAST_AREA or room.max() < LEAST_ROOM * len(level.x):
+            room = _room(own) if colour == "end" and own.mean() >= LEAST_AREA else np.zeros(1)
+            if room.max() < LEAST_ROOM * len(level.x):
                 word.visible = False
                 continue
             i, j = np.unravel_index(np.argmax(room), room.shape)
@@ -121,6 +120,13 @@ class RunFigure:
     def show(self, t, theta, seconds):
         self.source.data = {"t": t, "theta": theta}
         self.figure.x_range.end = seconds
+
+
+def _room(own):
+    """How far each cell of an area is from its edge, for a name, which is wide."""
+    room = distance_transform_edt(np.pad(own, 1), sampling=(WIDE, 1))[1:-1, 1:-1]
+    room[[0, -1]] = 0  # a name there would be cut off
+    return room
 
 
 def _beside_edge(level, j, room):

@@ -15,7 +15,7 @@ from app.model.once import ONCE
 from app.model.runs import MAPS, WORK, Run, Stopped
 from app.tabs.maps.words import with_unit
 from app.text import error_text, listed, say
-from app.widgets.cards import Hidden, alert, note, words
+from app.widgets.cards import TABLE, Hidden, alert, note, words
 from app.widgets.drawing import drawn
 from app.widgets.failure import ended
 from app.widgets.hold import held
@@ -25,11 +25,6 @@ from tippe_core import TopError
 COLOURS = {"upright": ACCENT, "tumbling": ends.COLOUR["stem"], "inverted": "#9b2d20"}
 OF_KEY = {ACCENT: "var(--accent)"}  # the figures change it on dark too
 DASHES = {True: "solid", False: "dashed"}
-TABLE = """
-table { border-collapse: collapse; margin: 4px 0 8px } th, td { padding: 2px 16px 2px 0; text-align: left;
-  font-weight: 400; vertical-align: baseline } td { font-variant-numeric: tabular-nums }
-th { color: var(--faint) }
-"""
 SIDE_BY_SIDE = ".figures { display: flex; flex-flow: row wrap } .one { flex: 1 1 240px; min-width: 0 }"
 SHADES = (ends.COLOUR["stem"], None)  # of the points after the first and the second time
 

@@ -11,7 +11,7 @@ from app.text import listed, say, written
 from app.widgets.cards import px, swatch
 from app.widgets.typeset import power
 
-PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
+PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid var(--control-line); {}"
 HATCHED = f"background: repeating-linear-gradient(135deg, {ends.COLOUR['rolling']} 0 3px, #1b2430 3px 4px)"
 LINE = {"solid": "solid", "dashed": "dashed", "dotted": "dotted", "dashdot": "dashed", "dotdash": "dotted"}
 

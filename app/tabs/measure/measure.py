@@ -23,7 +23,7 @@ from app.tabs.measure.file import Brought, Filmed
 from app.tabs.measure.home import Home
 from app.tabs.measure.places import PLACES, head
 from app.tabs.measure.recipe import recipes
-from app.tabs.measure.words import TABLE, in_file, kept_words, name_of, notes_words, result_words
+from app.tabs.measure.words import FOUND, in_file, kept_words, name_of, notes_words, result_words
 from app.text import error_text, listed, say
 from app.widgets.cards import alert, areas, column, flow, note, words
 from app.widgets.failure import unless_stopped
@@ -55,7 +55,7 @@ class Measure:
         self.columns = Columns(self._by_hand, self._wrong)
         self.constants, self.over, self.below = (column() for _ in range(3))
         self._make_controls()
-        self.found = words(note(say("measure.nothing_yet")), style=TABLE)
+        self.found = words(note(say("measure.nothing_yet")), style=FOUND)
         self.home = Home(self._runs, self.filmed)
 
     def _make_controls(self):

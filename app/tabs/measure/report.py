@@ -8,6 +8,7 @@ import numpy as np
 from app.model.colours import COLOURS
 from app.tabs.measure.figures import size_of
 from app.text import say, spoken, written
+from app.widgets.plots import round_numbers
 
 WIDTH, HEIGHT, REST, LEFT = 720, 220, 60, 50
 INK, GRID = "#1b2430", "#e4e7ea"
@@ -38,8 +39,9 @@ class _Axes:
     def __init__(self, t, low, high):
         self._begin, self._long = t[0], np.ptp(t) or 1
         self._high, self._tall = high, high - low or 1
-        self.lines = "".join(_line(self.y(value), written(value, "g")) for value in _round(low, high))
-        self._times = [(self.x(value), written(value, "g") + unit) for value, unit in _named(_round(t[0], t[-1]))]
+        self.lines = "".join(_line(self.y(value), written(value, "g")) for value in round_numbers(low, high))
+        times = round_numbers(t[0], t[-1])
+        self._times = [(self.x(each), written(each, "g") + " s" * (each == times[-1])) for each in times]
 
     def foot(self, y):
         return "".join(f'<text x="{x:.0f}" y="{y}" text-anchor="middle">{text}</text>' for x, text in self._times)
@@ -49,19 +51,6 @@ class _Axes:
 
     def y(self, values):
         return 10 + (HEIGHT - 20) * (self._high - values) / self._tall
-
-
-def _round(low, high):
-    """About four round numbers between two values."""
-    about = (high - low or 1) / 4
-    power = 10 ** np.floor(np.log10(about))
-    step = next(size * power for size in (1, 2, 5, 10) if size * power >= about)
-    return [float(f"{step * i:.6g}") for i in range(int(np.ceil(low / step)), int(np.floor(high / step)) + 1)]
-
-
-def _named(values):
-    """The numbers as text, the last one with its unit."""
-    return [(value, " s" if i == len(values) - 1 else "") for i, value in enumerate(values)]
 
 
 def _line(y, text):

@@ -7,15 +7,15 @@ import numpy as np
 from app.model.measured.fit import WORSE, verdict
 from app.model.measured.table import line_in_file
 from app.text import listed, say, written
-from app.widgets.cards import note
+from app.widgets.cards import TABLE, note
 
 SHOWN = {"tilt": 180 / np.pi}
 NAMED = 8  # times of values that are far off
 OF_MODELS = ("", " class=n", *[" class='n deep'"] * 2, "")
-TABLE = """
-table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
-p { margin: 4px 0 } td, th { padding: 3px 10px 3px 0; text-align: left; font-weight: normal; vertical-align: baseline }
-th { color: var(--faint); font-size: calc(12px * var(--type, 1)) }
+FOUND = (
+    TABLE
+    + """
+table { width: 100% } p { margin: 4px 0 } th { font-size: calc(12px * var(--type, 1)) }
 :host(.brief) .deep { display: none }
 td.n, th + th:not(:last-child) { text-align: right } td.n { white-space: nowrap }
 tr.best td { font-weight: 600 }
@@ -23,6 +23,7 @@ td.faint { color: var(--faint) } tr + tr { border-top: 1px solid var(--rule) }
 h3 { font-size: calc(18px * var(--type, 1)); margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
 @media (max-width: 500px) { td, th { padding-right: 4px } }
 """
+)
 
 
 def _number(value, error):

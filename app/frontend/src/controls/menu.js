@@ -5,8 +5,8 @@ import { part } from "../parts.js";
 
 let made = 0; // for the ids of labels
 
-const list = `.menu { display: inline-flex; flex-direction: column; max-width: 100%; } .menu.beside { flex-direction: row; align-items: center; gap: 8px; }
-label { color: var(--ink-2); font-size: var(--t-s); } .beside label { font-size: inherit; white-space: nowrap; } select { max-width: 100%; padding: 0 4px 0 0; text-overflow: ellipsis; }`;
+const list = `.menu { display: inline-flex; flex-direction: column; max-width: 100%; }
+label { color: var(--ink-2); font-size: var(--t-s); } select { max-width: 100%; padding: 0 4px 0 0; text-overflow: ellipsis; }`;
 
 /** @param {Rendering<MenuModel>} rendering */
 export function renderMenu(rendering) {
@@ -15,9 +15,8 @@ export function renderMenu(rendering) {
   const label = part("label", { for: id }), place = part("div", { class: "menu" }, label, select);
   frame(rendering, list, place);
   const show = () => (select.selectedIndex = Object.values(model.options).indexOf(model.value));
-  follow(model, ["options", "label", "is_beside"], () => {
+  follow(model, ["options", "label"], () => {
     label.textContent = model.label;
-    place.classList.toggle("beside", model.is_beside);
     select.replaceChildren(...Object.keys(model.options).map((word) => part("option", {}, word)));
     show();
   });

@@ -29,6 +29,7 @@ select option { color: var(--ink); background: var(--ground); }
 .round:focus-visible { border-radius: 50%; }
 .outline { padding: 8px 16px; box-shadow: inset 0 0 0 1px var(--line-2); text-align: left; line-height: 1.3; }
 .outline span { display: block; font-size: var(--t-s); color: var(--ink-2); }
+.outline.word { min-width: 76px; text-align: center; padding: 0 12px; }
 .link { min-height: 28px; padding: 0 2px; text-decoration: underline; text-underline-offset: 3px; text-decoration-color: var(--line-2); font-weight: 600; }
 .titled { display: flex; align-items: center; justify-content: space-between; min-height: 32px; gap: 8px; }
 .seg { display: inline-flex; gap: 2px; }
@@ -81,6 +82,15 @@ export const timed = `
 // How far something is that takes a while.
 export const progress = `.wait progress { -webkit-appearance: none; appearance: none; width: 110px; height: 6px; border: 0; border-radius: 3px; overflow: hidden; background: var(--line); }
 .wait progress::-webkit-progress-bar { background: var(--line); } .wait progress::-webkit-progress-value { background: var(--ink); } .wait progress::-moz-progress-bar { background: var(--ink); }
+`;
+
+// What Share offers: a title and a sentence, and its buttons beside them.
+export const offer = `.all { display: flex; flex-flow: row wrap; align-items: center; gap: 8px; } .all > * { flex: 1 1 100%; } .all > .says { flex: 1 1 150px; } .says b { display: block; }
+.all > :is(.wait, .outline) { flex: none; }
+`;
+
+// A text to copy.
+export const toCopy = `textarea { font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1px solid var(--line-2); border-radius: 6px; color: inherit; background: none; resize: none; min-width: 0; }
 `;
 
 // A choice with buttons on a ground of its own.

@@ -8,7 +8,7 @@ const STYLE = {
   font: "calc(12px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink)", background: "var(--card)", border: "1px solid var(--faint)",
 };
 
-/** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+/** @import { Box } from "../data.js" */
 
 /** @param {Box} a @param {Box} b */
 const shared = (a, b) =>

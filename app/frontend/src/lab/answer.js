@@ -1,6 +1,7 @@
 // Shows one picture at a time; each answers a question about the run: where the height comes from, which way the top
 // turns, where it touches the table, and the ball.
 import { caps, trail } from "./caps.js";
+import { meets } from "../data.js";
 import { ENERGY, HEAT, HEIGHT, SPIN, ticks, TURNING } from "../motion/curves.js";
 import { levels as grid, marks, times } from "../figures/line.js";
 import { lineOf } from "./numbers.js";
@@ -130,12 +131,12 @@ export class Answer {
   // Puts the name of the earlier run beside its line, where there is room.
   nameThen() {
     if (!this.unnamed) return;
-    const name = drawn("text", {}, this.texts.then), others = [...this.drawing.querySelectorAll(".halo, .word")].map((word) => word.getBBox());
+    const name = drawn("text", {}, this.texts.then), others = [...this.drawing.querySelectorAll(".halo, .word")].map((word) => word.getBoundingClientRect());
     this.drawing.append(name);
     for (const share of [...NAMED, NAMED[0]]) { // if there is room nowhere, at the first
       const [x, y, ground = ""] = this.unnamed(share);
       dress(name, { class: `halo ${ground}`, x: x.toFixed(1), y: y.toFixed(1) });
-      const box = name.getBBox();
+      const box = name.getBoundingClientRect();
       if (!others.some((other) => meets(box, other))) return;
     }
   }
@@ -284,10 +285,6 @@ export class Answer {
     for (const move of this.moves) move(t);
   }
 }
-
-// Whether two text boxes overlap.
-/** @param {DOMRect} a @param {DOMRect} b */
-const meets = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
 // A selection of the points, always with the last.
 /** @param {number[][]} line */

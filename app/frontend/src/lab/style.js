@@ -41,7 +41,7 @@ const places = `
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(var(--top, 48px) * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
-  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link, .say .small .link { min-height: var(--touch); }
+  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .link { min-height: var(--touch); }
   .dock { order: 1; z-index: 3; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
   :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
@@ -64,9 +64,8 @@ const stage = `
 @container (max-width: 700px) { .top { top: 44px; } }
 .on { position: absolute; left: 12px; right: 12px; top: 12px; display: flex; justify-content: space-between; align-items: flex-start; gap: 8px; pointer-events: none; }
 .on > * { pointer-events: auto; }
-.switch, .on > select { background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
+.switch { background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
 .switch { display: inline-flex; } .switch > b { align-self: center; padding: 0 8px 0 10px; }
-.on > select { padding: 0 8px; min-height: calc(var(--touch) + 2px); min-width: 0; max-width: 46%; text-overflow: ellipsis; font-weight: 600; }
 .chip { position: absolute; left: 16px; top: 64px; display: flex; align-items: center; background: var(--ground); border-radius: 16px; padding-left: 12px; font-variant-numeric: tabular-nums; }
 .chip button { padding: 0; width: var(--touch); font-size: var(--t-l); border-radius: 16px; } .chip .brief { display: none; }
 @container (max-width: 1180px) { .lab > .answer .plot { min-height: 150px; } .chip .whole { display: none; } .chip .brief { display: inline; } .lab > .answer .titled { flex-wrap: wrap; } .lab > .answer h2 { flex-basis: 100%; } }
@@ -86,7 +85,6 @@ const stage = `
 .missing { position: absolute; pointer-events: none; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
 @container (max-width: 700px) {
   .on { left: 8px; right: 8px; top: 8px; gap: 4px; } .switch > b { display: none; } .seg button { padding: 0 9px; min-height: 44px; }
-  .on > select { max-width: none; flex: 1; min-height: 50px; }
   .ring { top: 66px; left: auto; right: 8px; margin: 0; flex-direction: column; gap: 0; } .ring svg { width: 64px; }
   .lab[data-table=three] .top { top: 60px; bottom: 72px; } .caption { bottom: 4px; height: 68px; font-size: var(--t-s); padding: 0 4px; }
   .lab[data-table=three] .stage { background: var(--scene); }
@@ -102,7 +100,8 @@ const strip = `
 .then { stroke: var(--line-2); stroke-width: 2; stroke-dasharray: 6 5; fill: none; } .lab.old .then { opacity: .38; }
 path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
-.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; } .say .small .link { min-height: 0; }
+.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; }
+@container (min-width: 701px) { .say .small .link { min-height: 24px; } } /* in a sentence */
 @container (max-width: 1180px) { .outline { max-width: 330px; } }
 @container (max-width: 700px) {
   /* on the stage, and as long in sight as that */

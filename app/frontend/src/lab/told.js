@@ -17,16 +17,21 @@ export function inWords(texts, { curves, run }, t) {
   return `${say(texts, leans, { tilt: [curves.at(t, TILT), 0], on })} ${say(texts, turns, { above, own })}`;
 }
 
-/** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {AbortSignal} life */
-export function toldOf(texts, time, life) {
+/** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {AbortSignal} life @param {(place: number, words: string) => void} describe a picture: 0 of one top alone, 1 to 3 of three */
+export function toldOf(texts, time, life, describe) {
   const element = part("p", { class: "unseen", role: "status", "aria-label": texts.told.label });
-  let tops = /** @type {any[]} */ ([]), heard = ""; // those that are shown; when it was said, or what was happening
-  const speak = debounce(() => (element.textContent = tops.map((top) => top.name + inWords(texts, top, time.t)).join(" ")), SAY_MS, life);
+  let tops = /** @type {any[]} */ ([]), heard = "", old = ""; // those that are shown; when it was said, or what was happening
+  const speak = debounce(() => {
+    const said = tops.map((top) => inWords(texts, top, time.t));
+    element.textContent = said.map((words, i) => tops[i].name + words).join(" ");
+    tops.forEach(({ place, run }, i) => describe(place, [old, latest(run.stages, time.t)?.[1], said[i]].filter(Boolean).join(" ")));
+  }, SAY_MS, life);
   return {
     element,
-    show({ table, curves, runs }) {
-      tops = (table === "three" ? TABLES : [table]).flatMap((name) => (
-        curves[name].count && runs[name] ? [{ curves: curves[name], run: runs[name], name: table === "three" ? `${texts.tables[name]}: ` : "" }] : []));
+    show({ table, curves, runs, state }) {
+      old = state.old ? `${say(texts, texts.old, { what: state.old })}.` : "";
+      tops = (table === "three" ? TABLES : [table]).flatMap((name, i) => (
+        curves[name].count && runs[name] ? [{ place: table === "three" ? i + 1 : 0, curves: curves[name], run: runs[name], name: table === "three" ? `${texts.tables[name]}: ` : "" }] : []));
       heard = "";
     },
     // While it plays, it is said when the story comes to another part or something else carries the top; otherwise always.

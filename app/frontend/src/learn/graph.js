@@ -113,7 +113,7 @@ export class Graph {
     if (time) found.push(this.covering, this.now);
     for (const [, px, py] of marks) found.push(drawn("circle", { class: "mark", cx: x(px), cy: y(py), r: 5 }));
     this.words = [...lines.map((line) => ({ ...line, at: time ? null : line.points.findLast((point) => point.every(Number.isFinite)) })), ...marks.map(([word, px, py]) => ({ word, at: [px, py], points: [] }))]
-      .filter(({ word }) => word).map((word) => ({ ...word, element: drawn("text", { class: `word halo ${word.kind ?? ""}`, style: word.colour ? `fill: color-mix(in srgb, ${word.colour} 50%, var(--ink))` : undefined }, word.word) }));
+      .filter(({ word }) => word).map((word) => ({ ...word, element: drawn("text", { class: `word halo ${word.kind ?? ""}`, style: word.colour && `fill: ${word.colour}` }, word.word) }));
     this.scale = { x, y, time, clip, bottom, right };
     return [...found, ...this.words.map(({ element }) => element)];
   }

@@ -14,8 +14,10 @@ export class Stage {
     this.step = /** @type {any} */ ({});
     /** @type {any[]} */
     this.curves = [];
-    /** @type {string[]} */
-    this.names = [];
+    /** @type {any[]} */
+    this.shown = [];
+    this.time = time;
+    this.heard = ""; // what was said of them last
     // a single top is drawn close, several a little farther away
     this.tops = Array.from({ length: 1 + MOST }, (_, i) => new Top({ texts, time, life, label: texts.stage, away: i ? 1.5 : 1.3 }));
     this.captions = this.tops.map(() => part("p", { class: "caption" }));
@@ -33,7 +35,8 @@ export class Stage {
     this.step = step;
     this.isAsked = isAsked;
     this.curves = curves;
-    this.names = tops.map(({ name }) => name);
+    this.shown = tops;
+    this.heard = "";
     this.ways.element.hidden = step.picture !== "spin" || !tops.length;
     this.wait.textContent = tops.length ? "" : step.refused ? `${lesson.wrong} ${step.refused}` : lesson.wait;
     this.tops.forEach((top, i) => {
@@ -52,9 +55,19 @@ export class Stage {
 
   /** @param {number} t */
   at(t) {
-    const { step, names, texts } = this, word = names.length === 1 && latest(step.stages?.[names[0]] ?? [], t)?.[1];
-    this.pill.hidden = !word;
-    if (!this.ways.element.hidden) this.ways.at(this.curves[0], t);
-    if (word) this.pill.textContent = say(texts, this.isAsked ? texts.lesson.pill : texts.lesson.pill_before, { word, tilt: [this.curves[0].at(t, TILT), 0] }); // the word gives the answer away
+    const { step, shown, time, curves, texts } = this, words = shown.map(({ name }) => latest(step.stages?.[name] ?? [], t)?.[1]), isOne = shown.length === 1;
+    this.pill.hidden = !isOne || !words[0];
+    if (!this.ways.element.hidden) this.ways.at(curves[0], t);
+    if (isOne) this.pill.textContent = this.wording(words[0], curves[0], t);
+    const news = time.playing ? words.join() : String(t);
+    if (news === this.heard) return;
+    this.heard = news;
+    shown.forEach(({ word, hidden }, i) => this.tops[isOne ? 0 : i + 1].describe(`${isOne ? "" : `${word}: `}${hidden ? texts.lesson.later : this.wording(words[i], curves[i], t)}`));
+  }
+
+  // What a top does, and how far it leans; before the guess its tilt alone, because the word gives the answer away.
+  wording(word, curves, t) {
+    const { texts, isAsked } = this;
+    return say(texts, word && isAsked ? texts.lesson.pill : texts.lesson.pill_before, { word, tilt: [curves.at(t, TILT), 0] });
   }
 }

@@ -1,4 +1,5 @@
 // Cohen's top by several laws of friction, and by Coulomb's in steps whose length a slider chooses.
+import { onBoth } from "../colours.js";
 import { drawn, part, say } from "../parts.js";
 import { coalesce } from "../data.js";
 import { frame } from "../controls/frame.js";
@@ -21,8 +22,7 @@ export function renderSteps(rendering) {
     if (label.hidden) return list.replaceChildren(part("li", {}, wording.working));
     range.max = String(steps.length - 1);
     const present = steps[Number(range.value)];
-    // legible on dark, too
-    const curves = [...laws, present].map((curve) => ({ ...curve, colour: `color-mix(in srgb, ${curve.colour} 65%, var(--ink))` }));
+    const curves = [...laws, present];
     chosen.textContent = range.ariaValueText = say(texts, wording.milliseconds, { step: [present.step, 0] });
     list.replaceChildren(...curves.map(({ name, says, link, colour, dash }) => part("li", {}, swatch(colour, dash),
       part("span", {}, part("b", {}, `${name}: `), says, " ", link && part("a", { href: link }, texts.open)))));
@@ -31,7 +31,7 @@ export function renderSteps(rendering) {
   }
 
   const swatch = (colour, dash) => drawn("svg", { class: "swatch", viewBox: "0 0 26 8", "aria-hidden": "true" },
-    drawn("path", { class: "line", d: "M1 4H25", stroke: colour, "stroke-dasharray": { dashed: "7 4", dotted: "2 4" }[dash] }));
+    drawn("path", { class: "line", d: "M1 4H25", stroke: onBoth(colour), "stroke-dasharray": { dashed: "7 4", dotted: "2 4" }[dash] }));
   model.on("curves", showing);
   frame(rendering, style, part("div", { class: "steps" }, graph.element, label, list));
   show();

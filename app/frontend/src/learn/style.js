@@ -52,8 +52,8 @@ const drawings = `
 path.line { fill: none; stroke-width: 2; stroke-linejoin: round; } .first { stroke: var(--line-2); }
 svg text.own { fill: var(--q-spin); stroke: none; } svg text { stroke: none; } svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; }
 .picture .now { stroke: var(--accent); stroke-width: 2; } .mark { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
-.hull { fill: color-mix(in srgb, ${colours.wood} 45%, var(--ground)); stroke: var(--q-energy); } .table { stroke: var(--ink); stroke-width: 1.5; } .thin { stroke: var(--line-2); stroke-dasharray: 5 4; fill: none; }
-.arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--q-jellett); } svg text.upright { fill: var(--q-jellett); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
+.hull { fill: color-mix(in srgb, ${colours.wood} 45%, var(--ground)); stroke: var(--q-energy); } .table { stroke: var(--ink-2); stroke-width: 1.5; } .thin { stroke: var(--line-2); stroke-dasharray: 5 4; fill: none; }
+.arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--ink); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
 `;
 
 const present = `

@@ -3,7 +3,7 @@ import { tidy } from "../data.js";
 import { ticks } from "../motion/curves.js";
 import { levels, marks } from "../figures/line.js";
 import { drawn } from "../parts.js";
-/** @import { Box, Plot } from "./scales.js" */
+/** @import { Box } from "../data.js" @import { Plot } from "./scales.js" */
 
 const CLOSE = 4; // px: tielines are no closer
 

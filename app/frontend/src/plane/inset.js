@@ -5,7 +5,7 @@ import { Chosen } from "./chosen.js";
 import { across, region, shortly, upwards } from "./drawing.js";
 import { plotOf } from "./scales.js";
 import { write } from "./words.js";
-/** @import { Box, Plot } from "./scales.js" */
+/** @import { Box } from "../data.js" @import { Plot } from "./scales.js" */
 /** @import { PlaneScene } from "./plane.js" */
 
 const WIDE = 200, HIGH = 92, EDGE = 10; // px

@@ -3,7 +3,7 @@ import { degrees, fill, local, tidy } from "../data.js";
 import { touchBoxes } from "./drawing.js";
 import { limitAt, placeIn } from "./reading.js";
 /** @import { Plot } from "./scales.js" */
-/** @import { Box, Name, Place } from "./words.js" */
+/** @import { Box } from "../data.js" @import { Name, Place } from "./words.js" */
 
 const HEIGHTS = [0.12, 0.2, 0.06, 0.28, 0.38, 0.48, 0.58, 0.7, 0.8, 0.9]; // of the axis of K_J
 const ALONG = [0.5, 0.35, 0.65, 0.2, 0.8, 0.95, 0.05]; // of the path of a motion that slips

@@ -7,7 +7,7 @@ import { Inset } from "./inset.js";
 import { curveNames, pathBoxes, pathNames, regionBoxes, tielineName } from "./names.js";
 import { boxesOf, padded, plotOf } from "./scales.js";
 import { place, write } from "./words.js";
-/** @import { Box, Plot } from "./scales.js" */
+/** @import { Box } from "../data.js" @import { Plot } from "./scales.js" */
 /** @import { PlaneScene } from "./plane.js" */
 
 const layer = (name) => drawn("g", { class: name });

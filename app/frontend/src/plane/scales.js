@@ -1,7 +1,7 @@
 // Where the two plots are: the plane, and below it K_R over the same tilts.
 
 /** @typedef {PixelScale & ((value: number) => number)} Axle */
-/** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+/** @import { Box } from "../data.js" */
 /** @typedef {{ x: Axle, y: Axle, box: Box }} Plot */
 
 // A linear scale from values to px.

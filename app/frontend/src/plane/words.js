@@ -1,9 +1,10 @@
 // Words in a drawing: typeset, and placed beside what they name where they cover nothing.
+import { meets } from "../data.js";
 import { drawn } from "../parts.js";
 
 const WIDE = 0.53, LINE = 1.25, ASCENT = 0.95, BELOW = 0.2; // of the font size: mean width of a letter, from line to line, above the base line, below a line with an index
 
-/** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+/** @import { Box } from "../data.js" */
 /** @typedef {{ x: number, y: number, side: "start" | "middle" | "end", to?: [x: number, y: number] }} Place y: base line of the first line; to: where a line leads */
 /** @typedef {{ says: string[], places: Place[], kind?: string }} Name says: of several the first that finds room */
 /** @typedef {{ text: string, place: Place, box: Box, kind: string }} Placed */
@@ -17,7 +18,6 @@ export function boxOf(text, { x, y, side }, size) {
   return { left, right: left + wide, top, bottom: top + LINE * size * lines.length + (text.includes("<sub>") ? BELOW * size : 0) };
 }
 
-const meets = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 const isInside = (a, b) => a.left >= b.left && a.right <= b.right && a.top >= b.top && a.bottom <= b.bottom;
 
 // Gives each name the first place where it is inside and covers nothing; a name without one is left out. The earlier

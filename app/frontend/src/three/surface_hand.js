@@ -82,7 +82,7 @@ export class SurfaceHand {
     if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > CLICK_PX) return;
     const i = this.under(event), place = i === null ? this.onFloor(event) : null;
     if (place) model.hand = ["point", ...place];
-    else if (i !== null) model.picked = [grid.K_J[Math.floor(i / grid.columns)], grid.theta[i]];
+    else if (i !== null) model.hand = ["tieline", grid.theta[i], grid.K_J[Math.floor(i / grid.columns)]];
     this.last = event;
     this.hover(); // a finger cannot hover, so a tap reads the value too
   }

@@ -1,5 +1,6 @@
 // A top in 3-D for the Lab: it has no bar of its own, and its model is created here.
 import { renderTop3D } from "./top3d.js";
+import { degrees } from "../data.js";
 import { part } from "../parts.js";
 import { atEnd } from "../life.js";
 import { modelOf } from "../stand_in.js";
@@ -25,9 +26,14 @@ export class Top {
     const first = [-1.12, 0.26, away];
     let camera = before.length ? before : first;
     this.element = part("div", { class: "top" });
+    this.label = label;
     this.model = modelOf({
       texts, label, clock: time.name, now: undefined, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null, azimuth: undefined,
-      bare: true, flick, pushes: [], tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, ...NOTHING,
+      bare: true, flick, pushes: [], playing: true, ...NOTHING,
+      pulled: hand && { letGo: hand.letGo, to: (theta, azimuth) => {
+        this.put({ azimuth });
+        hand.pull(degrees(theta));
+      } },
       get camera() { return camera; },
       set camera(chosen) {
         camera = chosen.length ? chosen : first;
@@ -36,12 +42,6 @@ export class Top {
       get speed() { return time.speed; },
       set speed(_) {},
       get until() { return time.end / time.unit; },
-      tilted: [],
-    });
-    this.model.on("tilted", () => {
-      const [theta, , , azimuth] = this.model.tilted;
-      this.put({ azimuth });
-      hand?.pull((180 / Math.PI) * theta);
     });
     this.view = /** @type {any} */ ({});
     atEnd(life, () => this.view.tippe?.dispose());
@@ -58,6 +58,13 @@ export class Top {
 
   /** @param {Record<string, any>} changes */
   put = (changes) => void Object.assign(this.model, changes);
+
+  // What it shows, for those who do not see it.
+  /** @param {string} words */
+  describe(words) {
+    const label = `${this.label}. ${words}`;
+    if (this.model.label !== label) this.put({ label });
+  }
 
   firstView() {
     this.model.camera = [];

@@ -22,12 +22,11 @@ import { TopScene } from "./top_scene.js";
 const REDRAWN = ["mu_s", "seconds", "show_track", "show_trace", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"];
 
 class Top {
-  /** @param {TopModel} model @param {Stage} stage @param {{ root: HTMLElement, picture: HTMLElement, label: string, life: AbortSignal }} frame */
-  constructor(model, stage, { root, picture, label, life }) {
+  /** @param {TopModel} model @param {Stage} stage @param {{ root: HTMLElement, picture: HTMLElement, life: AbortSignal }} frame */
+  constructor(model, stage, { root, picture, life }) {
     this.model = model;
     this.stage = stage;
     this.life = life;
-    this.label = label;
     this.received = this.drawing = this.shown = 0; // counts of motions: arrived, in the picture being drawn, on the screen
     this.highlight = /** @type {Pointed | null} */ (null); // from a tippe:highlight
     this.scene = new TopScene(stage, life);
@@ -46,7 +45,7 @@ class Top {
     this.player = this.place.player;
     this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model, life);
     this.ghost = model.before === undefined ? null : new Ghost(stage);
-    this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
+    this.handle = model.pulled ? new Handle(stage, this.scene.labels, model.texts, model.pulled) : null;
     this.impulse = model.pushes ? new Impulse(stage, this.scene) : null;
     this.flick = model.flick && this.impulse ? new Flick(stage, this.scene, this.player, model.flick, this.impulse) : null;
     this.bar = model.bare ? null : new Bar(root, picture, model, this.player, () => {
@@ -156,7 +155,7 @@ class Top {
   }
 
   report = () => {
-    const { player: { t, playing, frames }, place, scene: { body, pointedAt }, stage: { pictures }, eye, label, verdict, received, shown } = this;
+    const { player: { t, playing, frames }, place, scene: { body, pointedAt }, stage: { pictures }, eye, model: { label }, verdict, received, shown } = this;
     return {
       t, playing, pictures, label, index: place.reported?.index, count: frames.count, position: body.position.toArray(), quaternion: body.quaternion.toArray(),
       eye: eye.direction, verdict: verdict.textContent, motions: { received, shown }, highlight: pointedAt.visible ? this.highlight?.label : "",
@@ -168,9 +167,10 @@ class Top {
 export function renderTop3D(rendering) {
   const { model, el } = rendering, life = lifeOf(rendering, { look: () => top?.look() });
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
-  if (!model.clock || model.tiltable) picture.dataset.picture = "top";
+  if (!model.clock || model.pulled) picture.dataset.picture = "top";
   const stage = tryStage(picture, { label, texts, fov: 30, life });
-  const top = stage && new Top(model, stage, { root, picture, label, life });
+  const top = stage && new Top(model, stage, { root, picture, life });
   if (top) top.begin();
   else renderFlat(model, { root, picture, life });
+  model.on("label", () => picture.querySelector("canvas")?.setAttribute("aria-label", model.label));
 }

@@ -1,11 +1,11 @@
 // A text to copy, and a button that copies it, even on a page without https, where the browser's own way is forbidden.
 import { frame } from "../controls/frame.js";
+import { toCopy } from "../controls/style.js";
 import { follow } from "../life.js";
 import { part } from "../parts.js";
 
 const STYLE = `:host > div { width: 100%; } .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start; }
-textarea { flex: 1 1 0; min-width: 0; font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1px solid var(--line-2); border-radius: 6px; color: inherit; background: none; resize: none; }
-.outline { min-width: 76px; text-align: center; }`;
+textarea { flex: 1 1 0; } ${toCopy}`;
 const SAID_MS = 1500;
 
 /** A button that copies the text of a field, and says so. @param {HTMLInputElement | HTMLTextAreaElement} field @param {string} kind @param {[copy: string, copied: string]} words */
@@ -27,7 +27,7 @@ export function copyButton(field, kind, [copy, copied]) {
 export function renderCopy(rendering) {
   const { model } = rendering;
   const area = part("textarea", { readonly: true, spellcheck: "false", onfocus: () => area.select() });
-  frame(rendering, STYLE, part("div", { class: "copy" }, area, copyButton(area, "outline", model.button)));
+  frame(rendering, STYLE, part("div", { class: "copy" }, area, copyButton(area, "outline word", model.button)));
   follow(model, ["text", "label", "rows"], () => {
     area.value = model.text;
     area.rows = model.rows;

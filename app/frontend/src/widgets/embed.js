@@ -2,20 +2,19 @@
 import { part } from "../parts.js";
 import { copyButton } from "./copy.js";
 import { frame, whenSeen } from "../controls/frame.js";
+import { offer, toCopy } from "../controls/style.js";
 import { follow } from "../life.js";
 import { fill, penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
 
 const SMALL = 240; // px: the width of a preview
-const STYLE = `.all { display: flex; flex-flow: row wrap; align-items: center; gap: 8px; } .says { flex: 1 1 150px; } .says b { display: block; } textarea, .small, .preview { flex: 1 1 100%; }
-textarea { font: var(--t-s)/1.5 ui-monospace, monospace; padding: 8px; border: 1px solid var(--line-2); border-radius: 6px; color: inherit; background: none; resize: none; min-width: 0; }
-.preview { display: block; flex: none; border: 1px solid var(--line-2); border-radius: 6px; } .outline { min-width: 76px; text-align: center; }`;
+const STYLE = `${offer}${toCopy}.all > .preview { flex: none; border: 1px solid var(--line-2); border-radius: 6px; }`;
 
 /** @param {Rendering<EmbedModel>} rendering */
 export function renderEmbed(rendering) {
   const { model } = rendering, { texts } = model, others = model.frames.split(/\s+/).filter((each) => each && !["'self'", "'none'"].includes(each));
   const area = part("textarea", { readonly: true, rows: 4, spellcheck: "false", "aria-label": texts.title, hidden: !others.length, onfocus: () => area.select() });
-  const copy = copyButton(area, "outline", [texts.copy, texts.copied]);
+  const copy = copyButton(area, "outline word", [texts.copy, texts.copied]);
   copy.hidden = !others.length;
   const preview = part("canvas", { class: "preview", role: "img", "aria-label": texts.preview, hidden: true });
   const who = !others.length ? texts.refused : others.includes("*") ? "" : fill(texts.only, { sites: others.join(", ") });

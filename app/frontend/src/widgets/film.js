@@ -3,7 +3,7 @@
 import { renderStretch } from "../controls/stretch.js";
 import { frame, whenSeen } from "../controls/frame.js";
 import { atEnd } from "../life.js";
-import { progress } from "../controls/style.js";
+import { offer, progress } from "../controls/style.js";
 import { part, say } from "../parts.js";
 import { HIGH, labInSight, timesOf, WIDE } from "../motion/filmed.js";
 import { modelOf } from "../stand_in.js";
@@ -13,8 +13,7 @@ const MOST_S = 30, TELL_MS = 50, HD = { width: WIDE, height: HIGH, rate: 30 };
 const SIZES = { webm: HD, mp4: HD, gif: { width: WIDE / 2, height: HIGH / 2, rate: 20 } }; // a GIF counts in 1/100 s
 // Of a kind, the codecs of which the browser must be able to write one, and what the library calls them.
 const CODECS = { webm: { "vp09.00.31.08": "vp9", vp8: "vp8" }, mp4: { "avc1.640028": "avc", "avc1.42001f": "avc" } };
-const STYLE = `.all { display: flex; flex-flow: row wrap; align-items: center; gap: 8px; } .all > * { flex: 1 1 100%; } .all > .says { flex: 1 1 150px; }
-.all > .wait { flex: none; display: flex; gap: 8px; align-items: center; } .says b { display: block; } .outline { min-width: 76px; text-align: center; padding: 0 12px; } ${progress}`;
+const STYLE = `${offer}.wait { display: flex; gap: 8px; align-items: center; } ${progress}`;
 
 // A codec of this kind that the browser can write; undefined if there is none, as on every page without TLS.
 /** @param {keyof typeof CODECS} kind */
@@ -44,10 +43,10 @@ class Films {
     this.end = 0; // s: of the run that is in sight
     /** @type {any} */
     this.ends = null; // the model of the control of the stretch
-    this.buttons = Object.keys(SIZES).map((kind) => part("button", { type: "button", class: "outline", hidden: kind !== "gif", onclick: () => this.make(kind) },
+    this.buttons = Object.keys(SIZES).map((kind) => part("button", { type: "button", class: "outline word", hidden: kind !== "gif", onclick: () => this.make(kind) },
       { webm: "WebM", mp4: "MP4", gif: "GIF" }[kind]));
     this.progress = part("progress", { max: 1, "aria-label": texts.progress });
-    this.wait = part("span", { class: "wait", hidden: true }, this.progress, part("button", { type: "button", class: "outline", onclick: () => (this.stopped = true) }, texts.stop));
+    this.wait = part("span", { class: "wait", hidden: true }, this.progress, part("button", { type: "button", class: "outline word", onclick: () => (this.stopped = true) }, texts.stop));
     this.files = part("span", { class: "wait" }, ...this.buttons);
     this.wording = part("p", { class: "small", role: "status" });
     this.stretch = part("div");

@@ -33,6 +33,7 @@ export function renderFilmStage(rendering) {
     if (playing !== top.model.playing) put({ playing });
     const tilt = tilts[Math.min(index, tilts.length - 1)];
     pill.textContent = tilt === undefined ? "" : say(texts, texts.pill, { t: [t, 2], tilt: [tilt, 0] });
+    if (!playing) top.describe(pill.textContent);
   }, clock, life);
   const show = coalesce(() => {
     const some = Boolean(float32(model.frames).length);

@@ -5,19 +5,11 @@ import { Choice, part } from "../parts.js";
 import { listening } from "../motion/heard.js";
 import { headStyle } from "./head_style.js";
 
-// A choice among rows [name, word, room, hint] that may change.
-/** @extends {Choice} */
-class Several extends Choice {
-  /** @param {"radio" | "tab"} role @param {string} label @param {(name: string) => void} choose */
-  constructor(role, label, choose) {
-    super({ role, label, choose, kind: role === "tab" ? "tabs" : "switch" });
-  }
-
-  /** @param {string} chosen @param {any[][]} [rows] */
-  show(chosen, rows) {
-    if (rows) this.offer(rows.map(([name, word, , hint]) => [name, word, hint]));
-    super.show(chosen);
-  }
+// Shows a choice among rows [name, word, ...] that may change.
+/** @param {Choice} choice @param {string} chosen @param {any[][]} rows */
+function showAmong(choice, chosen, rows) {
+  choice.offer(rows.map(([name, word]) => [name, word]));
+  choice.show(chosen);
 }
 
 class Head {
@@ -28,14 +20,14 @@ class Head {
     this.texts = texts;
     this.count = model.state.answered ?? 0;
     this.toy = part("select", { class: "toy", "aria-label": texts.toy, onchange: () => this.ask("toy", this.toy.value) });
-    this.tabs = new Several("tab", texts.tabs, (tab) => this.go(this.roomOf("tabs", tab)));
-    this.rooms = new Several("radio", texts.rooms, (room) => this.goBelow(room));
-    this.levels = new Several("radio", texts.level, (level) => this.goLevel(level));
+    this.tabs = new Choice({ role: "tab", kind: "tabs", label: texts.tabs, choose: (tab) => this.go(this.roomOf(tab)) });
+    const several = (label, choose) => new Choice({ role: "radio", kind: "switch", label, choose });
+    this.rooms = several(texts.rooms, (room) => this.goBelow(room));
+    this.levels = several(texts.level, (level) => this.goLevel(level));
+    this.languages = several(texts.language, (name) => this.ask("language", name));
     this.steps = ["undo", "redo"].map((name) =>
       part("button", { type: "button", class: "icon", "aria-label": texts[name], title: texts[name], onclick: () => this.ask(name) }, texts.signs[name]));
     this.share = part("button", { type: "button", onclick: () => this.ask("share") }, texts.share);
-    /** @type {any} */
-    this.languages = null;
     /** @type {{ name: string, box: HTMLInputElement, element: HTMLElement }[]} */
     this.switches = [];
     this.more = part("button", { type: "button", class: "icon", "aria-label": texts.more, "aria-expanded": "false", onclick: () => this.open(!this.isOpen) }, "⋯");
@@ -49,7 +41,6 @@ class Head {
 
   makeMenu() {
     const { texts } = this;
-    this.languages = new Several("radio", texts.language, (name) => this.ask("language", name));
     this.switches = ["dark", "large"].map((name) => {
       const box = part("input", { type: "checkbox", role: "switch", onchange: () => this.ask(name, box.checked) });
       return { name, box, element: part("label", {}, box, texts[name]) };
@@ -93,7 +84,7 @@ class Head {
     ask(this.model, [++this.count, name, value]);
   }
 
-  roomOf(kind, chosen) { return this.model.state[kind].find(([name]) => name === chosen)[2]; }
+  roomOf(tab) { return this.model.state.tabs.find(([name]) => name === tab)[2]; }
 
   // Switches the tab at once; Python is told, and creates what does not exist yet.
   turn(room) {
@@ -124,14 +115,14 @@ class Head {
   show() {
     const { state } = this.model;
     if (!state.tabs || state.answered < this.count) return; // newer requests are on their way
-    this.tabs.show(state.tab, state.tabs);
-    this.levels.show(state.level, state.levels);
+    showAmong(this.tabs, state.tab, state.tabs);
+    showAmong(this.levels, state.level, state.levels);
     this.session.hidden = !state.levels.length;
     this.below.hidden = !state.rooms.length;
-    if (state.rooms.length) this.rooms.show(state.room, state.rooms);
+    showAmong(this.rooms, state.room, state.rooms);
     this.share.setAttribute("aria-expanded", String(state.shares));
     this.tour.hidden = !state.tour;
-    this.languages.show(state.language, state.languages);
+    showAmong(this.languages, state.language, state.languages);
     for (const { name, box } of this.switches) box.checked = state[name];
     for (const [i, isDone] of [state.undo, state.redo].entries()) this.steps[i].disabled = !isDone;
     this.showToys(state);

@@ -1,6 +1,5 @@
 // A table that a person chooses, drops anywhere on the page, or pastes. It is read here, and rows are left out if it is
 // too long; a saved film is a short text and is kept whole. A zip, a workbook or a file of Tracker's own is sent whole.
-import { colours } from "../colours.js";
 import { fill } from "../data.js";
 import { lifeOf } from "../life.js";
 import { part } from "../parts.js";
@@ -12,9 +11,9 @@ const STYLE = `
   label:focus-within { outline: 3px solid var(--focus); outline-offset: 2px }
   input { position: absolute; opacity: 0; width: 1px; height: 1px }
   textarea { flex: 1 1 calc(168px * var(--type, 1)); min-width: 0; height: calc(40px * var(--type, 1)); font: inherit; color: inherit; background: transparent; resize: none;
-    border: 1px solid #8b949e; border-radius: 6px; padding: 9px 10px; box-sizing: border-box }
+    border: 1px solid var(--control-line); border-radius: 6px; padding: 9px 10px; box-sizing: border-box }
   .says { flex: 1 0 100%; color: var(--faint); font-size: calc(12px * var(--type, 1)) } .says:empty { display: none }
-  .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.accent}26; pointer-events: none;
+  .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: color-mix(in srgb, var(--accent) 15%, transparent); pointer-events: none;
     border: 3px dashed var(--focus); box-sizing: border-box; font: 600 calc(18px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink) }
   .over b { background: var(--card); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }
   `;

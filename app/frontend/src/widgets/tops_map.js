@@ -1,6 +1,6 @@
 // The map of all tops: a/R across and I1/I3 upwards determine which of them can turn over. Each known top is shown as
 // its silhouette, which can be clicked; the ring is the top of the page, which can be dragged.
-import { fill, local } from "../data.js";
+import { fill, local, meets } from "../data.js";
 import { clamp } from "../figures/curves.js";
 import { lifeOf, onLook } from "../life.js";
 
@@ -23,7 +23,7 @@ const STYLE = `<style>
   .here .grip { fill: transparent } .here .ring, .here .line { stroke: var(--link) } .chosen .ring.of { stroke: var(--ink) }
   </style>`;
 
-/** type: the enlargement of the text. @typedef {{ wide: number, high: number, type: number }} Size @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+/** type: the enlargement of the text. @typedef {{ wide: number, high: number, type: number }} Size */
 
 /** Converts between px and a/R, I1/I3. @param {Size} size */
 export function scalesOf({ wide, high }) {
@@ -51,7 +51,6 @@ export function silhouette(outline) {
 export function placeNames(tops, size) {
   const half = SIZE / 2 + 5, letter = LETTER * size.type, line = LINE * size.type, box = (x, y, wide, high) => ({ left: x, right: x + wide, top: y, bottom: y + high });
   const taken = tops.map(({ x, y }) => box(x - half, y - half, 2 * half, 2 * half));
-  const meets = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
   return tops.map(({ x, y, words }, own) => {
     const wide = letter * words.length;
     /** @type {[dx: number, dy: number][]} */
