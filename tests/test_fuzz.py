@@ -213,12 +213,11 @@ def test_what_is_no_message_or_is_never_read_disturbs_nobody(attacked):
 
 ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 3000,
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
-GOOD = {"request": [7, "K_J", 6.5, False], "hand": [], "playing": False,
+GOOD = {"request": [7, "K_J", 6.5, False], "hand": ["line", 0.5, 6.5], "playing": False,
         "gesture": 7, "dark": False}  # fmt: skip
 GOOD_OF = {
     ("Head", "request"): [7, "table", "rough"],
     ("LabView", "request"): [7, "tilt", 5.0],
-    ("PlaneView", "hand"): ["line", 0.5, 6.5],
     ("SectionView", "hand"): ["R", 10.6, -10.6],
     ("LessonView", "request"): [7, "section", "theorists"],
 }

@@ -10,6 +10,7 @@ import pytest
 from bokeh.document import Document
 from doubles import keeping
 from panel.io.state import set_curdoc
+from wire import run
 
 from app.model.runs import Runs
 from app.page.page import page
@@ -104,4 +105,4 @@ def test_a_timer_of_ten_minutes_keeps_no_page():
             await asyncio.sleep(0.01)
         assert stays.called == [(7,)]
 
-    asyncio.run(asyncio.wait_for(later(), 60))
+    run(later())
