@@ -89,11 +89,14 @@ export class Body extends THREE.Mesh {
   constructor() {
     super(new THREE.BufferGeometry(), new THREE.MeshPhongMaterial({ shininess: 70, specular: 0x3a3a3a }));
     this.castShadow = true;
+    this.profile = /** @type {Float32Array | undefined} */ (undefined); // what it has been built of
   }
 
   /** @param {Float32Array} profile (radius, height above O along axis 3) pairs */
   setProfile(profile) {
-    const { geometry: old, material } = this;
+    const { geometry: old, material, profile: built } = this;
+    if (built?.length === profile.length && profile.every((number, i) => number === built[i])) return; // as of the motion before
+    this.profile = profile;
     old.dispose();
     material.map?.dispose();
     const { geometry, points, firstCorner } = revolved(profile);

@@ -74,8 +74,12 @@ class Top {
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
     if (this.measured) model.on("measured", () => this.newMeasured());
     const { ghost } = this;
-    if (ghost) for (const name of ["before", "azimuth"]) model.on(name, () => ghost.show(model.before ?? null, model.azimuth));
-    if (ghost) model.on("azimuth", onFrames);
+    if (ghost) {
+      // with the frames, or a picture would be drawn of it beside the motion before
+      const onBefore = coalesce(() => ghost.show(model.before ?? null, model.azimuth), life);
+      for (const name of ["before", "azimuth"]) model.on(name, onBefore);
+      model.on("azimuth", onFrames);
+    }
     window.addEventListener(`tippe:highlight${suffix}`, ({ detail }) => {
       this.highlight = detail;
       this.scene.pointedTip.element.textContent = detail?.label ?? "";
