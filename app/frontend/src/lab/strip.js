@@ -15,6 +15,7 @@ export class Strip extends TimeLine {
     /** @type {import("../motion/curves.js").Curves | null} */
     this.before = null;
     this.size = 0; // px, of the font; not known yet
+    this.isNarrow = false; // nor this
     this.clock = part("span", { class: "clock" });
     this.speed = part("select", {
       class: "speed", "aria-label": texts.speed, onchange: () => time.chose(Number(this.speed.value)),
@@ -30,9 +31,6 @@ export class Strip extends TimeLine {
   get right() {
     return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 15 * this.size : 0);
   }
-
-  // By the whole: the plot is wider beside short words, and would not be narrow then.
-  get isNarrow() { return this.element.clientWidth < NARROW; }
 
   y = (tilt) => this.bottom - ((this.bottom - this.top) * tilt) / 180;
 
@@ -57,6 +55,7 @@ export class Strip extends TimeLine {
     const { clientWidth: width, clientHeight: height } = this.plot, { scene } = this;
     if (!width || !scene) return;
     const size = fontSize(this.plot);
+    this.isNarrow = this.element.clientWidth < NARROW; // by the whole: the plot is wider beside short words, and would not be narrow then
     Object.assign(this, { width, size, top: 19 + 1.2 * size, bottom: height - FOOT });
     this.writeSpeeds();
     const shown = scene.table === "three" ? TABLES : [scene.table];
