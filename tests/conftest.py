@@ -45,8 +45,8 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers(config):
-    """Half as many again as there are processors: a test that waits for a page or a server leaves one to another."""
-    return 3 * (os.cpu_count() or 2) // 2
+    """Twice as many as there are processors: a test that waits for a page or a server leaves one to another."""
+    return 2 * (os.cpu_count() or 2)
 
 
 def pytest_configure(config):
