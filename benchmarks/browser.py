@@ -368,3 +368,18 @@ if __name__ == "__main__":
 # 2.59; drag figure 1.43, page 5.08 (panel serve: 1.08, 3.62; 1.52, 5.18).
 # A phone (390 x 844, the processor slowed 4 times by Chromium; WebGL is drawn by the same slowed processor): a top that
 # moves after 3.7 s, the whole page after 4.7 s, 16 frames a second while it plays; at full speed 1.6 s, 1.9 s and 20.
+#
+# 2026-11-29, nothing else running, Chromium 156 without a window, the window of 1400 x 2000 px, three rounds; first the
+# least in times bare's least, then p95 in times bare's, python -m app (panel serve):
+# first top 2.32 (2.44), hand 1.96 (1.95), page 2.32 (2.44), cpu 3.17 (3.20).
+#                 before        a body built anew for  the strip's width
+#                               another profile only   read once a drawing
+# steps figure    1.03 (1.32)   1.09 (1.27)            p95  78 ms
+# steps page      5.73 (6.43)   4.14 (4.11)            p95 271 ms
+# drag  figure    2.70 (2.54)   2.78 (2.84)            p95 209 ms
+# drag  page      8.54 (8.25)   8.91 (7.56)            p95 593 ms
+# (the last column: three rounds of ours alone, of which bare had 75 and 79 ms in the run before.) Each move had built the
+# body of the top and that of the run before anew, with their textures, and drew a picture of the old motion beside the new
+# one's ghost; each frame read the strip's width, which laid the page out. Of a step's 206 ms (p50) the motion is there
+# after 85, the top has it after 130, and its picture takes 80, by the processor. The aims (figure 1.0 and 1.2, page 2.0 and
+# 2.5) are missed; the figure in single steps by little.
