@@ -378,8 +378,8 @@ if __name__ == "__main__":
 # steps page      5.73 (6.43)   4.14 (4.11)            p95 271 ms
 # drag  figure    2.70 (2.54)   2.78 (2.84)            p95 209 ms
 # drag  page      8.54 (8.25)   8.91 (7.56)            p95 593 ms
-# (the last column: three rounds of ours alone, of which bare had 75 and 79 ms in the run before.) Each move had built the
-# body of the top and that of the run before anew, with their textures, and drew a picture of the old motion beside the new
-# one's ghost; each frame read the strip's width, which laid the page out. Of a step's 206 ms (p50) the motion is there
-# after 85, the top has it after 130, and its picture takes 80, by the processor. The aims (figure 1.0 and 1.2, page 2.0 and
-# 2.5) are missed; the figure in single steps by little.
+# (the last column: three rounds of ours alone, of which bare had 75 and 79 ms in the run before.) Each move had built
+# the body of the top and that of the run before anew, with their textures, and drew a picture of the old motion beside
+# the new one's ghost; each frame read the strip's width, which laid the page out. Of a step's 206 ms (p50) the motion
+# is there after 85, the top has it after 130, and its picture takes 80, by the processor. The aims (figure 1.0 and 1.2,
+# page 2.0 and 2.5) are missed; the figure in single steps by little.
