@@ -40,7 +40,7 @@ def dimension(shape, name):
 
 
 def test_the_handle_of_a_turned_tops_radius_is_in_the_middle_of_its_peg():
-    shape = SHAPES["Free profile"]
+    shape = Lathe(R=0.005, density=700.0, points=((0.0048, -0.0014), (0.018, 0.01), (0.003, 0.045)))
     at, (radius, height) = np.array(handles(shape)["R"]), shape.points[0]
     assert np.hypot(*at) == pytest.approx(shape.R)
     assert np.hypot(*(at - (radius, height))) == pytest.approx(np.hypot(*(at - (0.0, -shape.R))))
@@ -147,6 +147,7 @@ def test_windows_of_a_derivation_leave_no_gap():
     assert len(found) > 1
     for one, then in pairwise(found):
         assert then.t[EDGE] == pytest.approx(one.t[-1 - EDGE], abs=1e-9)
+        np.testing.assert_allclose(one._L3(1.0).real, one.I3 * one.w3, rtol=1e-9)  # of its own ball, as it moves
 
 
 # ---- measured tops ----
