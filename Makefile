@@ -106,11 +106,12 @@ bench: $(VENV)/bench $(VENV)/test kernels browser
 image:
 	docker build -t tippe-top-explorer .
 
-# Chromium for the tests: the shell without a window, whose pages cost a fifth of the processor; else the installed one,
-# else playwright's.
+# Chromium for the tests: the shell without a window, whose pages cost a fifth of the processor, if it is installed or may
+# be; else the installed Chromium, else playwright's.
 browser: $(VENV)/test
 	@command -v chromium-headless-shell >/dev/null \
-	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null \
+	&& { apt-cache show chromium-headless-shell >/dev/null 2>&1 || { ! command -v chromium >/dev/null && apt-get update -qq; }; } \
 	&& apt-get install -y -qq chromium-headless-shell; } \
 	|| command -v chromium >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && $(BIN)/playwright install --with-deps chromium; } \

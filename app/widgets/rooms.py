@@ -74,6 +74,8 @@ class Place:
     def _is_away(self, left):
         if connected_to(self._document)():
             self._post(partial(self._give_back, left))
+        elif left == self._left:  # its line is cut for a moment, or it is gone, and this with it
+            after_long(AWAY, self._is_away, left)
 
     def _give_back(self, left):
         is_away = self._stands and left == self._left and not self.column.visible

@@ -24,7 +24,10 @@ export function toldOf(texts, time, life, describe) {
   const speak = debounce(() => {
     const said = tops.map((top) => inWords(texts, top, time.t));
     element.textContent = said.map((words, i) => tops[i].name + words).join(" ");
-    tops.forEach(({ place, run }, i) => describe(place, [old, latest(run.stages, time.t)?.[1], said[i]].filter(Boolean).join(" ")));
+    for (const place of [0, 1, 2, 3]) {
+      const i = tops.findIndex((top) => top.place === place);
+      describe(place, i < 0 ? "" : [old, latest(tops[i].run.stages, time.t)?.[1], said[i]].filter(Boolean).join(" "));
+    }
   }, SAY_MS, life);
   return {
     element,

@@ -59,10 +59,10 @@ export class Top {
   /** @param {Record<string, any>} changes */
   put = (changes) => void Object.assign(this.model, changes);
 
-  // What it shows, for those who do not see it.
+  // What it shows, for those who do not see it; nothing if it shows no motion.
   /** @param {string} words */
   describe(words) {
-    const label = `${this.label}. ${words}`;
+    const label = words ? `${this.label}. ${words}` : this.label;
     if (this.model.label !== label) this.put({ label });
   }
 
