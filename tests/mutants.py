@@ -28,7 +28,7 @@ from pathlib import Path
 
 import pytest
 from fingerprint import core
-from mutants_page import EXPLAINED, LOG, PAGE, STORES, functions_in, logged, page
+from mutants_page import EXPLAINED, LOG, PAGE, STORES, functions_in, logged, page, unquoted
 from mutation import sites
 from reach import KEPT, OPTIONS, PARTS, ROOT, SECONDS, in_turn, marks, prepare, statements
 
@@ -82,8 +82,8 @@ class Mutant:
 
 
 def drawn(text):
-    """A number below 2**256; each Python writes the quotes of a formatted string in its own way."""
-    return int(hashlib.sha256(re.sub("[\"']", "", text).encode()).hexdigest(), 16)
+    """A number below 2**256."""
+    return int(hashlib.sha256(unquoted(text).encode()).hexdigest(), 16)
 
 
 def changes(tree):

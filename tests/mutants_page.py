@@ -7,6 +7,7 @@ the file in which it is. The page counts what is of functions that are as they w
 import ast
 import functools
 import json
+import re
 from pathlib import Path
 
 from fingerprint import Reading, core, name_of, short
@@ -140,14 +141,19 @@ EXPLAINED = {
 }
 
 
+def unquoted(line):
+    """Each Python writes the quotes of a formatted string in its own way."""
+    return re.sub("[\"']", "", line.strip())
+
+
 @functools.cache
 def standing():
-    """{line of a statement as Python writes it: {hash of a function that has it: (its name, the name of its file)}}."""
+    """{line of a statement, unquoted: {hash of a function that has it: (its name, the name of its file)}}."""
     lines = {}
     for path in (path for path in core().paths.values() if Path(path).stem not in STORES):
         for function, mark in functions_in(core(), path):
             for line in ast.unparse(function).splitlines():
-                lines.setdefault(line.strip(), {})[mark] = function.name, Path(path).stem
+                lines.setdefault(unquoted(line), {})[mark] = function.name, Path(path).stem
     return lines
 
 
@@ -162,7 +168,7 @@ def functions_in(code, path):
 def place_of(line):
     """(function, file) of today's code that a line of the log is of; None if that function is no more as it was. Where
     the log does not know the function, the statement must still be there."""
-    found = standing().get(line["before"], {})
+    found = standing().get(unquoted(line["before"]), {})
     return found.get(line["code"]) if line.get("code") else next(iter(found.values()), None)
 
 

@@ -66,8 +66,9 @@ def test_a_mutant_counts_as_noticed_only_where_its_function_is_as_it_was(monkeyp
 
 
 def test_what_is_explained_of_a_change_is_of_a_statement_of_today():
-    today = {change.after for path in core().paths.values() for change in mutants.mutants(path)}
-    assert [key for key in mutants_page.EXPLAINED if key[1] not in today] == []
+    unquoted = mutants_page.unquoted
+    today = {unquoted(change.after) for path in core().paths.values() for change in mutants.mutants(path)}
+    assert [key for key in mutants_page.EXPLAINED if unquoted(key[1]) not in today] == []
 
 
 def test_the_log_of_mutants_has_its_fields():
