@@ -101,7 +101,7 @@ const strip = `
 path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
 .say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; }
-@container (min-width: 701px) { .say .small .link { min-height: 24px; margin-block: -2px; } } /* in a sentence, which is no higher for it */
+@container (min-width: 701px) { .say .small .link { min-height: 24px; margin-block: -2px; } } /* in a sentence */
 @container (max-width: 1180px) { .outline { max-width: 330px; } }
 @container (max-width: 700px) {
   /* on the stage, and as long in sight as that */
