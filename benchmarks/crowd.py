@@ -21,13 +21,9 @@ class Person(Page):
     """One page of the crowd."""
 
     async def open(self, room):
-        """Opens a room; returns the s until all of it has replaced the sentence that announces it."""
+        """Opens a room; returns the s until it stands."""
         start = time.monotonic()
-        [place] = [id for id in self.visitor.find("panel.models.layout.Column", "name")
-                   if self.now(id, "name") == f"place-of-{room}"]  # fmt: skip
-        before = self.now(place, "children")
-        await self.head("room", room)
-        await self.until(lambda: len(self.now(place, "children")) == 1 and self.now(place, "children") != before)
+        await super().open(room)
         return time.monotonic() - start
 
     async def rooms(self):

@@ -331,6 +331,8 @@ def main():
     else:
         for part in PARTS:
             subprocess.run([sys.executable, __file__, *sys.argv[1:], "--part", part], check=True)
+        last = (json.dumps(line, ensure_ascii=False) + "\n" for line in logged())
+        LOG.write_text("".join(last), encoding="utf-8")
         PAGE.write_text(text(), encoding="utf-8")
 
 

@@ -99,10 +99,7 @@ def test_who_stays_keeps_his_page_in_whichever_order_the_others_come_and_go(here
 
 def stands(page, room):
     """The text that stands in the place of a room; "made" if it is the room itself."""
-    [place] = [id for id in page.visitor.find("panel.models.layout.Column", "name")
-               if page.now(id, "name") == f"place-of-{room}"]  # fmt: skip
-    texts = [str(page.now(child["id"], "text", "made")) for child in page.now(place, "children")]
-    return html.unescape("".join(texts))
+    return html.unescape("".join(str(page.now(id, "text", "made")) for id in page.stands(room)))
 
 
 async def come_back(here):

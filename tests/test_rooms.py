@@ -15,8 +15,9 @@ from wire import run
 from app.model.runs import Runs
 from app.page.page import page
 from app.page.session import Session
+from app.widgets.failure import after_long
 from app.widgets.form import Form
-from app.widgets.rooms import AWAY, Place, after_long
+from app.widgets.rooms import AWAY, Place
 
 MANY = 30  # parts
 

@@ -162,16 +162,8 @@ class Clocked(Page):
         self.said = [*self.said, *(event["new"] for event in content["events"] if event.get("attr") == "text"
                                    and "status" in str(event["new"]))]  # fmt: skip
 
-    def stands(self):
-        """The ids of the children of the room's place."""
-        [place] = [id for id in self.visitor.find("panel.models.layout.Column", "name")
-                   if self.now(id, "name") == f"place-of-{self.room}"]  # fmt: skip
-        return [child["id"] for child in self.now(place, "children")]
-
     async def open(self):
-        waits = self.stands()
-        await self.head("room", self.room)
-        await self.until(lambda: len(self.stands()) == 1 and self.stands() != waits)
+        await super().open(self.room)
         self.came = time.monotonic()
 
 

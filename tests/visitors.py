@@ -49,18 +49,9 @@ async def open_panels(page):
 
 
 async def open_rooms(page):
-    """Opens one room after the other, and waits until each has replaced the sentence that announces it."""
-
-    def stands(place):
-        """The ids of the children: the room, or the sentence."""
-        return [child["id"] for child in page.now(place, "children")]
-
+    """Opens one room after the other, and waits until each stands."""
     for room in ROOMS:
-        [place] = [id for id in page.visitor.find("panel.models.layout.Column", "name")
-                   if page.now(id, "name") == f"place-of-{room}"]  # fmt: skip
-        [waits] = stands(place)
-        await page.head("room", room)
-        await page.until(lambda place=place, waits=waits: len(stands(place)) == 1 and stands(place) != [waits])
+        await page.open(room)
 
 
 async def visit(url, count):

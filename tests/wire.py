@@ -258,6 +258,18 @@ class Page:
         [found] = [id for id in self.visitor.find(kind, "label") if self.now(id, "label") == label]
         return found
 
+    def stands(self, room):
+        """The ids of what stands in the place of a room: the room itself, or the sentence that announces it."""
+        [place] = [id for id in self.visitor.find("panel.models.layout.Column", "name")
+                   if self.now(id, "name") == f"place-of-{room}"]  # fmt: skip
+        return [child["id"] for child in self.now(place, "children")]
+
+    async def open(self, room):
+        """Opens a room, and waits until it has replaced the sentence that announces it."""
+        [waits] = self.stands(room)
+        await self.head("room", room)
+        await self.until(lambda: len(self.stands(room)) == 1 and self.stands(room) != [waits])
+
     async def head(self, name, value=""):
         """Clicks something in the head of the page."""
         [head] = self.visitor.find("Head")

@@ -1,11 +1,13 @@
 """The page's messages about errors in its own work, and about waiting in a queue."""
 
 import logging
+from contextvars import Context
 from functools import partial
-from weakref import WeakKeyDictionary, ref
+from weakref import WeakKeyDictionary, WeakMethod, ref
 
 import panel as pn
 import param
+from tornado.ioloop import IOLoop
 
 from app.bundle import Bundled
 from app.model.runs import Full, Stopped, to_session
@@ -104,3 +106,16 @@ def after(seconds, act):
 def attempt(act):
     """Calls act() now; errors are handled as in Panel's own callbacks, and so are shown."""
     pn.state.execute(act, schedule=False)
+
+
+def after_long(seconds, method, *given):
+    """Calls a method on the loop's thread after so many seconds, unless its object is gone. A timer of the loop keeps
+    its context until its time has come, even if it is cancelled: with that of a page, as after() has, the page would
+    stay as long, so this one has none."""
+    method = WeakMethod(method)
+
+    def act():
+        if (call := method()) is not None:
+            call(*given)
+
+    Context().run(IOLoop.current().call_later, seconds, act)

@@ -4,19 +4,16 @@ Until then its place says that it is being created, or that this failed."""
 
 import logging
 import time
-from contextvars import Context
 from functools import partial
-from weakref import WeakMethod
 
 import panel as pn
 import param
-from tornado.ioloop import IOLoop
 
 from app import turns
 from app.model.runs import connected_to, to_session
 from app.text import say
 from app.widgets.cards import alert, column, note, words
-from app.widgets.failure import attempt
+from app.widgets.failure import after_long, attempt
 from app.widgets.form import Form
 from app.widgets.forms import Button
 from app.widgets.hold import held
@@ -149,18 +146,6 @@ class Place:
                 words(alert(say("main.making.failed")), margin=AROUND),
                 pn.Row(again, margin=(0, 28)),
             ]
-
-
-def after_long(seconds, method, *given):
-    """Calls a method on the loop's thread after so many seconds, unless its object is gone: a timer keeps its context,
-    and so a page, even when it is cancelled, so that this one has none."""
-    method = WeakMethod(method)
-
-    def act():
-        if (call := method()) is not None:
-            call(*given)
-
-    Context().run(IOLoop.current().call_later, seconds, act)
 
 
 class Rooms(param.Parameterized):

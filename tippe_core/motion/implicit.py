@@ -1,9 +1,9 @@
 """One step of a linearly implicit method of order 5, for a patch that hardly slips and hardly spins.
 
 Contensou's law is stiff there. Friction depends only on the direction n of s = (u_x, u_y, radius w_z), which relaxes at
-a rate of about k N, as 1/|s|, to that in which friction balances the other forces; the steps of stepper.py would shrink
-with |s|, and |s| itself changes slowly. So z has n and sigma = |s|/unit in place of v_x, v_y and L_z, where the unit is
-|s| at the start of the step:
+a rate of about k N, which grows as 1/|s|, to the one in which friction balances the other forces. The steps of
+stepper.py would shrink with |s|, while |s| itself changes slowly. So z has n and sigma = |s|/unit in place of v_x, v_y
+and L_z, where the unit is |s| at the start of the step:
 
     sigma' = n . s'/unit ,   n' = [s' - (n . s') n]/(unit sigma) .
 
@@ -73,8 +73,8 @@ TOLERANCE = 5e-9  # the least tolerance of an implicit step
 
 
 def slowest_patch(w_z: float, modes: Modes, P: Record, C: Record) -> tuple[int, float, float]:
-    """The contact with the least slip, the slip including that of the spin, of those that slip; and the fastest
-    relaxation of a slip, k N (1 + z^2/I1) with the height z of G above the contact; after forces()."""
+    """Of the contacts that slip, the one with the least |s|, and that |s|; and the fastest relaxation of a slip, k N
+    (1 + z^2/I1) with the height z of G above the contact; after forces()."""
     slowest, least, fastest = NO_ONE, np.inf, 0.0
     for i in range(1 + P.stem):
         if modes[i] == SLIP:
@@ -150,8 +150,8 @@ def differentiate(W: Record, P: Record) -> None:
 
 
 def until_half(W: Record) -> float:
-    """How long the slip takes to be half as large, as it changes now, after differentiate(); n then relaxes twice as
-    fast as the Jacobian says, and in a longer step its stages would diverge."""
+    """How long the slip takes to be half as large, as it changes now, after differentiate(). At half the slip n relaxes
+    twice as fast as the Jacobian says, and the stages of a longer step would diverge."""
     grows = W.step.K[0, at.SIGMA]
     return -0.5 / grows if grows < 0.0 else np.inf
 

@@ -77,7 +77,7 @@ def beside(state: State, nudge: float) -> State:
 
 
 def as_high(state: State, near: State, P: Record) -> State:
-    """near, but in flight as high above the table as the State."""
+    """near; if the State is in flight, as high above the table as that."""
     if state.z is None:
         return near
     return replace(near, z=state.z + preparing.height(P, near.theta) - preparing.height(P, state.theta))

@@ -80,7 +80,7 @@ LOG = kind(t=float, name="i8", supports="i8")
 # have just opened), the angles of poses.py, the next step, the guards; the numbers of samples, of events, of entries of
 # the log and of steps; whether a stretch begins, whether the rates at y are in step.K; the slowest contact with its
 # log|u| and beta, and whether beta is kept steady; whether the next step is to be implicit, and whether the last one
-# was; the contact that then creeps.
+# was; the contact that creeps in the next one, if that is implicit.
 MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(HALTS, 2), samples="i8",
               events="i8", logged="i8", steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8",
               stiff="i8", implicit="i8", creeps="i8", step=STEP, contacts=CONTACTS, summary=SUMMARY)  # fmt: skip

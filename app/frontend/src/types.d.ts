@@ -268,7 +268,6 @@ interface CopyModel extends Model {
   button: [before: string, after: string];
 }
 
-
 interface AddressModel extends Model {
   search: string;
   where: string;

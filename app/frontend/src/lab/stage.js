@@ -50,7 +50,7 @@ export class Stage {
       return label;
     }), part("button", { type: "button", onclick: () => this.alone.firstView() }, texts.view)));
     this.missing = part("p", { class: "missing", role: "status" });
-    this.told = toldOf(texts, time, life, (place, told) => this.tops[place].describe(told));
+    this.told = toldOf(texts, time, life, (told) => this.tops.forEach((top, i) => top.describe(told[i] ?? "")));
     this.element = part("section", { class: "stage", "aria-label": texts.stage },
       part("div", { class: "tops" }, ...this.places), this.ring,
       part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),

@@ -17,17 +17,14 @@ export function inWords(texts, { curves, run }, t) {
   return `${say(texts, leans, { tilt: [curves.at(t, TILT), 0], on })} ${say(texts, turns, { above, own })}`;
 }
 
-/** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {AbortSignal} life @param {(place: number, words: string) => void} describe a picture: 0 of one top alone, 1 to 3 of three */
+/** @param {Record<string, any>} texts @param {import("./time.js").Time} time @param {AbortSignal} life @param {(words: Record<number, string>) => void} describe the pictures that show a run: 0 of one top alone, 1 to 3 of three */
 export function toldOf(texts, time, life, describe) {
   const element = part("p", { class: "unseen", role: "status", "aria-label": texts.told.label });
   let tops = /** @type {any[]} */ ([]), heard = "", old = ""; // those that are shown; when it was said, or what was happening
   const speak = debounce(() => {
     const said = tops.map((top) => inWords(texts, top, time.t));
     element.textContent = said.map((words, i) => tops[i].name + words).join(" ");
-    for (const place of [0, 1, 2, 3]) {
-      const i = tops.findIndex((top) => top.place === place);
-      describe(place, i < 0 ? "" : [old, latest(tops[i].run.stages, time.t)?.[1], said[i]].filter(Boolean).join(" "));
-    }
+    describe(Object.fromEntries(tops.map(({ place, run }, i) => [place, [old, latest(run.stages, time.t)?.[1], said[i]].filter(Boolean).join(" ")])));
   }, SAY_MS, life);
   return {
     element,

@@ -26,7 +26,7 @@ export class Arms {
     this.push = drawn("g", {}, drawn("circle", { r: 8, class: "pushed" }), drawn("circle", { r: 2.5, class: "mass" }));
     this.mass = drawn("circle", { r: 4, class: "mass" });
     this.words = {
-      own: drawn("text", { class: "word halo own" }, wording.own), upright: drawn("text", { class: "word halo upright" }, wording.upright),
+      own: drawn("text", { class: "word halo own" }, wording.own), upright: drawn("text", { class: "word halo" }, wording.upright),
       push: drawn("text", { class: "halo" }, wording.push), axis: drawn("text", { class: "halo" }, wording.axis), mass: drawn("text", { class: "halo" }, wording.mass),
     };
   }
