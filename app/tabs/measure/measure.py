@@ -1,7 +1,7 @@
 """The tab Measure: measurements of a filmed top beside fitted rolling and sliding motions."""
 
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 
 from app.model.bodies import body, outline
 from app.model.measured.cells import MeasuredError
@@ -33,6 +33,13 @@ from app.widgets.hold import held
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
+
+
+@cache
+def _example(name):
+    """(its Film, its Table), the same for all pages: a class opens the room at once."""
+    text = (FOLDER / f"made-{name}.csv").read_bytes()
+    return opened(text), read(text)
 
 
 class Measure:
@@ -148,9 +155,9 @@ class Measure:
     def take_example(self, name):
         """Loads one of EXAMPLES, with default settings."""
         self._choose(LAW, ())
-        self.take((FOLDER / f"made-{name}.csv").read_bytes(), example=name)
+        self._open(*_example(name), example=name)
 
-    def take(self, text, each=1, example="", name="", link=""):
+    def take(self, text, each=1, name="", link=""):
         """Loads a table, bytes or text, in place of all that came of the one before. If it cannot be read, that one
         stays, and it is said that it does. name: of its file; link: what the page's link has of it already."""
         try:
@@ -162,6 +169,9 @@ class Measure:
             self._choose(film.law, film.loose)
         elif self._of_file:
             self._choose(LAW, ())  # these were the former film's
+        self._open(film, table, each, name=name, link=link)
+
+    def _open(self, film, table, each=1, example="", name="", link=""):
         self._clear()
         self._thinned, self._example, self._read, self._of_file, self._name = each, example, table, film, name
         self._say_top()
