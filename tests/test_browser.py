@@ -75,6 +75,17 @@ def a_bad_value_is_said_beside_its_control(page):
     wait(page, lambda: page.evaluate(SELECTED)["outer"] == pytest.approx(before["outer"], abs=1e-6))
 
 
+def an_old_picture_takes_no_more_room(page):
+    note = page.get_by_text("as the height to which it could lift the top").first
+    before = note.bounding_box()["height"]
+    put(page, "tilt", 185)
+    old = note.filter(has_text="Old picture")
+    old.wait_for()
+    assert old.bounding_box()["height"] == before
+    page.get_by_role("button", name="Back to").click()
+    old.wait_for(state="detached")
+
+
 def nothing_moves_while_a_slider_is_dragged(visit):
     """Numbers get longer, and sentences appear and disappear, but nothing on the page moves."""
     page = visit.page
@@ -109,6 +120,7 @@ def test_what_rolls_is_tippe_cores(visit):
         check(page, "research", look)
     the_top_is_the_one_that_rolls(page)
     a_bad_value_is_said_beside_its_control(page)
+    an_old_picture_takes_no_more_room(page)
     nothing_moves_while_a_slider_is_dragged(visit)
     after_a_slider_moved_the_figure_is_tippe_cores(page)
 

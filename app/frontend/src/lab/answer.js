@@ -115,7 +115,11 @@ export class Answer {
     this.plot.setAttribute("aria-label", wording.question);
     this.drawing.setAttribute("aria-label", wording.note);
     if (!width || !scene) return;
-    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), wording.note,
+    const isOld = Boolean(scene.state.old);
+    // What is below stays in its place while a hand holds it.
+    if (isOld !== this.note.classList.contains("cut")) this.note.style.minHeight = isOld && this.note.firstChild ? getComputedStyle(this.note).height : "";
+    this.note.classList.toggle("cut", isOld);
+    this.note.replaceChildren(...(isOld ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), wording.note,
       ...(this.before && name !== "trace" ? [texts.note_then] : []), name === "trace" && scene.run?.trace ? ` ${scene.run.trace}` : "");
     const size = fontSize(this.plot);
     Object.assign(this, { width, height, size, left: LEFT * size, bottom: height - FOOT });

@@ -127,6 +127,7 @@ svg .word.own { fill: var(--q-spin); } .answer .rest { stroke: var(--line-2); } 
 .large .answer { height: 100%; padding: 0; } .large .icon { font-size: var(--t-l); }
 .large::backdrop { background: #0008; }
 .dot { fill: var(--ground); stroke: var(--accent); stroke-width: 5; }
+.cut { white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 .lab.old .answer :is(polyline, polygon, .rest, .past) { opacity: .38; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
 .half { font-size: var(--t-s); color: var(--ink-2); } th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
