@@ -137,7 +137,7 @@ EXPLAINED = {
     (
         "rolling",
         "near = 0.001 / (outer - inner)",
-    ): "what counts as at an end, of a range that is 1.1 to 3.1 rad wide for all presets where the force is least in between",
+    ): "what is at an end of a range that is 1.1 to 3.1 rad wide, for any preset, where a force is least inside",
     (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
