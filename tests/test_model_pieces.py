@@ -289,7 +289,10 @@ def test_the_share_that_a_grip_takes_is_of_the_energy_above_rest(toy):
     motion = motion_on("rough", start_of(toy, 10.0, 20.0, 0.3))
     top, state = motion.start.top, motion.start.state
     energy = top.I3 * state.omega3**2 / 2 + abs(top.a) - top.a * math.cos(state.theta)
-    assert telling._table(motion)["gripped"] == pytest.approx(motion.lost / energy)
+    told = telling._table(motion)
+    assert told["gripped"] == pytest.approx(motion.lost / energy)
+    rate = math.sqrt(motion.start.scales.g / motion.start.scales.R)  # rad/s
+    assert told["samples"]["spin"][0] * 2 * math.pi == pytest.approx(rate * motion.trajectory.omega[0, 2])
 
 
 def test_a_well_is_shown_as_high_as_its_bead_comes():
