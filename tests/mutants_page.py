@@ -135,6 +135,10 @@ EXPLAINED = {
     ): "the search finds the pole to the last digit, too",
     ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
+        "rolling",
+        "near = 0.001 / (outer - inner)",
+    ): "what is at an end of a range that is 1.1 to 3.1 rad wide, for any preset, where a force is least inside",
+    (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
     ): "the first of the ordinary tops is that one",

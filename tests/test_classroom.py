@@ -3,10 +3,12 @@ time."""
 
 import json
 import os
+import sqlite3
 import stat
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from serving import redis_serving
@@ -85,6 +87,27 @@ def test_a_phone_has_one_vote_at_whichever_worker_and_may_change_it(workers, clo
 
 
 OTHER = {"step": "way", "asks": {"options": ["same", "other"]}, "top": {"a": ".07"}}
+
+
+def test_looking_again_soon_writes_nothing(tmp_path, clock, monkeypatch):
+    rooms, written = Rooms(Sqlite(tmp_path / "votes.sqlite"), clock=clock), []
+    _, key = rooms.open(HERE, **CHOICE)
+    monkeypatch.setattr(rooms._store, "change", lambda place, how: written.append(place))
+    for later, changes in ((USED / 2, 0), (USED, 2)):  # of the room, and of the register
+        clock.now += later
+        rooms.owned(key)
+        assert len(written) == changes
+
+
+def test_a_file_that_is_busy_for_a_moment_is_waited_for(tmp_path, monkeypatch):
+    once = iter([sqlite3.OperationalError("database is locked")])
+
+    def execute(text):
+        for error in once:
+            raise error
+
+    monkeypatch.setattr(sqlite3, "connect", lambda *_, **__: SimpleNamespace(execute=execute))
+    Sqlite(tmp_path / "votes.sqlite")._open()
 
 
 def test_a_class_goes_from_question_to_question_and_back(workers, clock):

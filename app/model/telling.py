@@ -37,7 +37,7 @@ def _table(motion: TableMotion) -> dict[str, Any]:
     moved, found, start = motion.trajectory, story(motion), motion.start
     samples = {"t": motion.seconds, "tilt": motion.tilt, "spin": moved.omega[:, 2] * start.turns,
                "support": motion.carried, "regime": moved.regime, "kinetic": moved.ledger.kinetic}  # fmt: skip
-    energy = moved.energy[0] + motion.lost - (1 - abs(moved.top.a))
+    energy = moved.energy[0] + motion.lost - min(0.0, 2 * moved.top.a)  # above where G is lowest
     return {
         "refused": "",
         "ended": motion.ended if motion.ended_at is not None else "",

@@ -4,6 +4,7 @@ All at the tilt, friction and law of a Map's bead; rev/s across, degrees up.
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -134,9 +135,8 @@ def _cut(spin: Array, theta: Array, stable: Array) -> list[Line]:
     """Cuts a line into pieces that are stable, or unstable, throughout."""
     there = np.isfinite(spin)
     ends = np.flatnonzero((stable[1:] != stable[:-1]) | (there[1:] != there[:-1])) + 1
-    pieces = [(0 if first == 0 else first, last) for first, last in zip([0, *ends], [*ends, len(spin)], strict=True)]
-    return [Line(spin[first:last], theta[first:last], bool(stable[first])) for first, last in pieces
-            if there[first] and last - first > 1]  # fmt: skip
+    return [Line(spin[first:last], theta[first:last], bool(stable[first]))
+            for first, last in pairwise([0, *ends, len(spin)]) if there[first] and last - first > 1]  # fmt: skip
 
 
 def bifurcation(request: Map, place: tuple[float, float], look: Progress | None = None) -> Bifurcation:
