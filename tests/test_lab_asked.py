@@ -58,6 +58,21 @@ def test_what_cannot_be_is_told_and_all_else_stays(lab, name, value, says):
     assert not lab.scene.messages
 
 
+@pytest.mark.parametrize("given", ["hand", "share", "state"])
+@pytest.mark.parametrize(("name", "value"), [("tilt", 185.0), ("spin", 1e9)])
+def test_to_go_back_from_what_cannot_be_changes_nothing(given, name, value):
+    """A start by constants stays one: tilt and spin that it only shows have made it one by hand."""
+    lab = lab_of(Explorer(given=given))
+    before, scene = lab.inputs, lab.scene
+    lab.ask(**{name: value})
+    assert name in lab.scene.messages
+    lab.ask(**{name: lab.value(name)})
+    assert lab.inputs == before and lab.explorer.given == given and not lab.scene.messages
+    assert lab.scene.motions is scene.motions
+    lab.ask(**{name: lab.value(name)})
+    assert lab.explorer.given == "hand"  # it was set, and not gone back to
+
+
 @pytest.mark.parametrize("given", ["hand", "share"])
 def test_what_another_control_refuses_stays_there_until_it_is_changed_or_the_lab_is_asked(given):
     explorer = Explorer(given=given)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from app.model.arrival import TILT
+from app.model.arrival import TILT, TOY
 from app.model.explorer import Explorer
 from app.model.lab.lab import Lab
 from app.model.start import arrives
@@ -124,6 +124,9 @@ def test_the_nearest_size_that_can_be_is_offered_and_can_be_taken(tab):
         state = wish(tab, 3 * number + 2, name, near)
         assert not state["messages"] and state["values"][name] == near
         wish(tab, 3 * number + 3, name, was)
+    size = wish(tab, 90, "toy", TOY)["values"]["dim:r"]
+    wish(tab, 91, "dim:r", 16.0)
+    assert wish(tab, 92, "dim:r", size)["toy"] == TOY  # which one it is, if one goes back
     assert not wish(tab, 99, "dim:r", "round")["nearest"]
 
 

@@ -165,6 +165,8 @@ class LabTab:
             typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
             self._wrong[name] = say("lab.inputs.no_number", value=typed)
             return {}
+        if number == sizes(toy)[name]:
+            return {}
         try:
             return {"toy": changed(shape_of(toy), dimension.name, number / dimension.factor)}
         except TopError as error:
