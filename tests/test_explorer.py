@@ -1,6 +1,7 @@
 """The Explorer without a browser: each change is one solve and one event, and an error is shown at its control."""
 
 import dataclasses
+import json
 import time
 
 import numpy as np
@@ -11,10 +12,11 @@ import app.model.explorer
 import app.model.frames
 import app.model.region
 import app.model.scene
+from app.model.explorer import Explorer
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
 from app.model.scene import solve
 from app.model.start import GIVEN
-from app.widgets.controls import Controls
+from app.widgets.controls import Controls, values_of
 from tippe_core import (
     Constants,
     State,
@@ -144,6 +146,20 @@ def test_the_face_shown_changes_nothing(explorer):
     controls = Controls(scene, explorer.set)
     controls.face = "state"
     assert explorer.scene is scene and not scenes and inputs_of(explorer) == before
+
+
+@pytest.mark.parametrize("given", ["hand", "share", "state"])
+@pytest.mark.parametrize(("name", "value"), [("I3", 2.0), ("K_J", 1e9), ("K_J", "seven"), ("energy", "much")])
+def test_to_go_back_from_what_is_refused_changes_nothing(given, name, value):
+    """A start by hand stays one, though its constants are only as they follow."""
+    explorer = Explorer(given=given)
+    before, good = inputs_of(explorer), explorer.start
+    controls = Controls(explorer.scene, explorer.set, lambda: explorer.back)
+    explorer.param.watch(lambda event: controls.show(event.new), "scene")
+    for number, wish in enumerate((value, values_of(explorer.scene)[name]), 1):
+        controls.numbers.view.request = [number, name, wish, wish == value]
+        assert bool(json.loads(controls.numbers.view.state)["messages"]) == (wish == value)
+    assert not explorer.scene.messages and inputs_of(explorer) == before and explorer.start == good
 
 
 def test_a_steady_precession_is_said_to_stay_and_another_motion_to_go_from_one_tilt_to_another(explorer):

@@ -35,19 +35,26 @@ class Explorer(param.Parameterized):
 
     def __init__(self, **inputs: Any) -> None:
         super().__init__(start=Start().changed(USUAL, **inputs))  # type: ignore[no-untyped-call]  # of param
-        self._waits = False
+        self._waits, self._possible = False, self.start
         self._put(scene=self._solve(self.start))
 
     def set(self, *, solve: bool = True, **inputs: Any) -> None:
         """Changes inputs of the start: one solve and one `scene` event, and none if rolling does not depend on them.
         solve: False where the rolling of a top let go by a hand is not seen: it is solved in settle()."""
         before, start = self.start, self.start.changed(self.scene.inputs, **inputs)
+        if self._waits or not self.scene.messages:
+            self._possible = before
         scene = {}
         if start.of_rolling != before.of_rolling:
             self._waits = start.given == "hand" and not solve
             scene = {} if self._waits else {"scene": self._solve(start)}
         if scene or start != before:
             self._put(**scene, start=start)
+
+    @property
+    def back(self) -> dict[str, Any]:
+        """What sets the start back to the last one that is possible."""
+        return self._possible.put_back
 
     def settle(self) -> None:
         """Solves what set() has postponed."""

@@ -139,7 +139,7 @@ class Session:
         return view
 
     def _research(self, follow):
-        controls = Controls(self.scene, self.scheduler.ask)
+        controls = Controls(self.scene, self.scheduler.ask, lambda: self.explorer.back)
         self.url_state.add(controls)
         for show_scene, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.scheduler.shows(show_scene, when)

@@ -76,14 +76,14 @@ def valid(scene):
 
 
 class Controls(param.Parameterized):
-    """All controls. ask: called with inputs of the Explorer. show() is for a hand at rest, follow() for each scene.
-    card() contains all of them."""
+    """All controls. ask: called with inputs of the Explorer; back: gives those of before a value was refused. show() is
+    for a hand at rest, follow() for each scene. card() contains all of them."""
 
     face = param.Selector(default="constants", objects=list(FACES), doc="which face is shown; it changes nothing else")
 
-    def __init__(self, scene, ask):
+    def __init__(self, scene, ask, back=dict):
         super().__init__()
-        self._scene, self._ask = scene, ask
+        self._scene, self._ask, self._back = scene, ask, back
         self._used = None  # the last control that was used: it shows the error if the motion is impossible
         self.numbers = Numbers(self._parts(), self._request)
         self.param.watch(lambda event: self.show(self._scene), "face")
@@ -114,7 +114,9 @@ class Controls(param.Parameterized):
             self._ask(**{name: PICTURES[name][value]})
             return
         self._used = name
-        if name in FACES["state"]:
+        if self._scene.messages and value == values_of(self._scene)[name]:
+            self._ask(**self._back())
+        elif name in FACES["state"]:
             self._ask(**{name: value}, given="state")
         elif name == "energy" and typed:
             self._ask(E=value, given="E")

@@ -92,9 +92,12 @@ class Numbers:
         elif not (typed and isinstance(wish, str)):
             wish = validate.number(wish)
         self._answered = int(count)
+        goes_back = name in self._wrong and not self._state["messages"] and wish == self._state["values"][name]
         self._wrong.clear()
         if isinstance(wish, str) and name in self._numbers:
             self._wrong[name] = wish
+            self._tell()
+        elif goes_back:
             self._tell()
         else:
             self._ask(name, wish, typed)
