@@ -9,12 +9,40 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import sliding_body as sb
+from scipy.integrate import solve_ivp
 
 from tippe_core import PRESETS, Contensou, LoadedSphere, State, Top, slide
+from tippe_core.motion import at, contacts, events, implicit, preparing, run
+from tippe_core.motion.dynamics import arrange, rates
+from tippe_core.motion.records import LOG, NO_ONE, OPEN, SAMPLE, SLIP, STICK, modes_of
+from tippe_core.motion.stepper import at_share
+from tippe_core.motion.summary import begin
 
 KNOWN = json.loads((Path(__file__).parent / "data/creeping.json").read_text(encoding="utf-8"))
 FREE = Top(a=-2.893199979896467, I1=5.029282603270844, I3=6.547745891340401)  # the preset Free profile
 STEPS = 32  # of slide() between two calls of progress
+
+
+def motion_of(known):
+    """The records of a motion that is known, at its start."""
+    state = State(**known["state"])
+    P = preparing.problem(Top(*known["top"]), Contensou(known["mu"], known["radius"]),
+                          preparing.checked_edge(known["edge"]), (0.0, 0.0), 1e-9)  # fmt: skip
+    W = preparing.motion(*preparing.beginning(state, 0.0, P))
+    preparing.start(W, P, state)
+    return W, P
+
+
+def one_by_one(W, P, until):
+    """Yields the event, if any, with which each step of a motion ends, and does what follows from it."""
+    log, none, rows = np.zeros(20_000, LOG), np.zeros(0), np.zeros(0, SAMPLE)
+    begin(W, P, log, np.inf)
+    while W.y[at.TIME] < until:
+        event = run.follow(W, P, log, none, rows, until, W.steps + 1)
+        yield event[0]
+        if event[0] not in (run.MORE, run.OVER):
+            assert not events.happens(W, P, log, event, True)
 
 
 def steps(top, state, friction, times, edge):
@@ -59,6 +87,111 @@ def test_a_top_that_rolls_on_ball_and_stem_shares_the_friction():
     assert len(moved.events) < 100 and moved.supports[-1][1] == "both" and set(moved.regime[-100:]) == {"roll"}
     for kept in (moved.theta, np.hypot(*moved.velocity[:, :2].T), moved.heat):
         assert np.ptp(kept[-100:]) < 1e-9
+
+
+@pytest.mark.parametrize("begins", [2.0, 30.0])
+def test_an_implicit_step_that_is_taken_is_of_its_order(begins):
+    """Against scipy's DOP853, in the next step of a motion that creeps, some hundred times as long as its slip takes to
+    relax. Its error, the estimate of that and the error of its polynomial are less than 2^-4 of those of a step twice
+    as long, and less than is allowed."""
+    W, P = motion_of(KNOWN[0])
+    for _ in one_by_one(W, P, begins):
+        pass
+    S, modes, out, errors, y = W.step, modes_of(W), np.zeros(16), [], W.y.copy()
+    assert W.stiff and W.implicit and W.creeps == 0 and modes == (SLIP, OPEN)
+
+    def rate(_, z):
+        rates(z, NO_ONE, modes, P, W.contacts, out)
+        return out / out[at.TIME]
+
+    for h in (2 * W.h, W.h):
+        S.new[:], S.z[:] = y, y
+        rate(0, y)
+        assert implicit.is_stiff(W, P, h)
+        run.scales(W, P, NO_ONE)
+        implicit.differentiate(W, P)
+        estimate, _ = implicit.implicit_step(W, P, h)
+        shares = np.array([0.3, 0.7, 1.0])
+        exact = solve_ivp(rate, (0, h), y, "DOP853", h * shares, rtol=1e-13, atol=1e-16).y.T
+        found = np.zeros((3, 16))
+        for x, each in zip(shares[:2], found, strict=False):
+            at_share(W, P, x, each)
+        found[2] = S.new
+        off = np.abs(found - exact).max(axis=1)
+        errors.append([estimate, off[:2].max(), off[2]])
+    assert (np.array(errors[1]) < [1.0, implicit.TOLERANCE, implicit.TOLERANCE]).all()
+    assert (np.divide(*errors) > 2**4).all()
+
+
+def test_the_slip_at_most_halves_in_an_implicit_step():
+    """Leine and Glocker's toy, whose slip vanishes at 0.9874: its last implicit steps end where it is half as large,
+    and none goes further."""
+    W, P = motion_of(KNOWN[4])
+    left, before = [], None
+    for _ in one_by_one(W, P, 0.9873):
+        axis = sb.matrix(W.y[:4])[:, 2]
+        w = omega(W.y, P, axis)
+        v = W.y[[at.VX, at.VY, at.VZ]]
+        now = np.hypot(np.hypot(*(v + np.cross(w, P.a * axis - sb.UP))[:2]), P.law.radius * w[2])
+        if W.implicit:
+            left.append(now / before)
+        before = now
+    assert len(left) > 20 and 0.495 < min(left) < 0.505
+
+
+def omega(y, P, axis):
+    inertia = P.I1 * np.eye(3) + (P.I3 - P.I1) * np.outer(axis, axis)
+    return np.linalg.solve(inertia, y[[at.LX, at.LY, at.LZ]])
+
+
+def off_the_table(y, P, known):
+    """Height and rising of ball and stem, from the body in space."""
+    axis = sb.matrix(y[:4])[:, 2]
+    arms = [contact(axis) for contact in (sb.sphere(P), sb.edge(P, *known["edge"][:2]))]
+    turns = [np.cross(omega(y, P, axis), arm)[2] for arm in arms]
+    return np.array([y[at.Z] + arm[2] for arm in arms]), y[at.VZ] + np.array(turns)
+
+
+def both_closed(W):
+    return OPEN not in modes_of(W)
+
+
+@pytest.mark.parametrize("known", KNOWN[6:], ids=lambda known: known["name"])
+def test_two_closed_contacts_stay_on_the_table(known):
+    """Over a life in which a patch creeps, slips and comes to rest: never so far from the table, and never rising or
+    sinking so fast, as a single step may err."""
+    W, P = motion_of(known)
+    worst = {}
+    for _ in one_by_one(W, P, known["t"][-1]):
+        if both_closed(W):
+            off = np.abs(off_the_table(W.y, P, known)).max()
+            worst[modes_of(W)] = max(worst.get(modes_of(W), 0.0), off)
+    assert {(SLIP, SLIP), (STICK, STICK)} <= set(worst) and max(worst.values()) < 1e-9
+
+
+@pytest.mark.parametrize(("modes", "creeps"), [((SLIP, SLIP), 0), ((SLIP, SLIP), 1), ((STICK, STICK), 0)])
+def test_a_closed_contact_that_has_drifted_comes_back_to_the_table(modes, creeps):
+    """As something critically damped at a rate of 1; the ball stays on the table."""
+    known = KNOWN[6]
+    W, P = motion_of(known)
+    next(_ for _ in one_by_one(W, P, known["t"][-1]) if modes_of(W) == modes and W.stiff == creeps)
+    y, begins, implicit_steps = W.y, W.y[at.TIME], 0
+    y[at.PX] += 1e-6
+    y[:4] /= np.linalg.norm(y[:4])
+    arrange(y, NO_ONE, modes, P, W.contacts)
+    contacts.known(y, W.contacts)
+    W.rated = 0
+    height, rises = (each[1] for each in off_the_table(y, P, known))
+    assert min(abs(height), abs(rises)) > 1e-6
+    for event in one_by_one(W, P, begins + 2.0):
+        if event not in (run.MORE, run.OVER):
+            break
+        t, grows = y[at.TIME] - begins, height + rises
+        heights, speeds = off_the_table(y, P, known)
+        np.testing.assert_allclose(heights, [0.0, (height + grows * t) * np.exp(-t)], rtol=0, atol=1e-9)
+        np.testing.assert_allclose(speeds, [0.0, (rises - grows * t) * np.exp(-t)], rtol=0, atol=1e-9)
+        implicit_steps += W.implicit
+    assert implicit_steps > 5 if creeps else t == 2.0
 
 
 @pytest.mark.parametrize(("name", "spin", "tilt", "mu"), [

@@ -15,6 +15,9 @@ from . import kept
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+# Nobody calls a kernel as a C function; the code for that would be a good part of what is compiled.
+OPTIONS = {"error_model": "numpy", "no_cfunc_wrapper": True}
+
 _making = threading.RLock()
 _shared: set[Callable[..., Any]] = set()  # with numba: it may compile them into kernels
 _compiler: int | None = None  # the thread that compiles ahead of time, while there is one
@@ -85,7 +88,7 @@ def _dispatcher(function: Callable[..., Any]) -> Any:
     import numba
 
     share_called(function)
-    dispatcher = numba.njit(nogil=True, error_model="numpy")(function)
+    dispatcher = numba.njit(nogil=True, **OPTIONS)(function)
     # Private parts; without them, or a folder, each process compiles the kernels anew.
     with suppress(ImportError, AttributeError, RuntimeError):
         _once(dispatcher)
@@ -101,7 +104,7 @@ def share_called(function: Callable[..., Any]) -> None:
         ours = isinstance(found, FunctionType) and found.__module__.partition(".")[0] not in ("numpy", "numba")
         if ours and found not in _shared:
             _shared.add(found)
-            importlib.import_module("numba.extending").register_jitable(error_model="numpy")(found)
+            importlib.import_module("numba.extending").register_jitable(**OPTIONS)(found)
             share_called(found)
 
 

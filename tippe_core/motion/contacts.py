@@ -8,7 +8,6 @@ not say what follows. If nothing presses the contact down (u_z' > 0 without cont
 
 import numpy as np
 
-from ..compiled import compiled
 from ..paper.constants import CLOSED
 from ..paper.search import zero
 from ..types import Array, Bools, Indices, Number
@@ -175,7 +174,6 @@ def let_patch_go(y: Array, modes: Modes, i: int, P: Record, C: Record) -> None:
 # ---- touching, leaving ----
 
 
-@compiled
 def settle(y: Array, event: Event, chosen: Indices, P: Record, S: Record, C: Record) -> bool:
     """y after the event, including any impact, and the modes in which the motion continues, into
     chosen; False beyond Painleve's limit."""

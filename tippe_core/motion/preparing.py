@@ -194,10 +194,17 @@ def on_table(W: Record, P: Record, i: int) -> None:
     W.y[at.VZ], W.y[at.Z] = W.contacts.G[2], W.contacts.G[3]
 
 
+@compiled
+def settled(W: Record, P: Record, event: Event) -> bool:
+    """settle() of W. (Called with its arrays, it and all that it calls would be compiled twice: numba knows them apart
+    from the same arrays within a record.)"""
+    return settle(W.y, event, W.modes, P, W.step, W.contacts)
+
+
 def start(W: Record, P: Record, state: State) -> tuple[Event, bool]:
     """place(), and the modes in which the motion continues; False beyond Painleve's limit."""
     event = place(W, P, state)
-    return event, event[0] == NONE or bool(settle(W.y, event, W.modes, P, W.step, W.contacts))
+    return event, event[0] == NONE or bool(settled(W, P, event))
 
 
 def place(W: Record, P: Record, state: State) -> Event:

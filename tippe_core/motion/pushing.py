@@ -19,7 +19,6 @@ from ..paper.top import Top
 from ..types import Array
 from . import at as of_y
 from . import preparing
-from .contacts import settle
 from .dynamics import turning
 from .friction import Friction
 from .kinds import TOUCHES
@@ -82,7 +81,7 @@ def pushed(
     F, r = to_space @ push, top.a * e + to_space @ point
     y[[of_y.VX, of_y.VY, of_y.VZ]] += F
     y[[of_y.LX, of_y.LY, of_y.LZ]] += np.cross(r, F)
-    settle(y, (TOUCHES, low), W.modes, P, W.step, W.contacts)  # beyond Painleve's limit too: slide() says so
+    preparing.settled(W, P, (TOUCHES, low))  # beyond Painleve's limit too: slide() says so
     return _after(state, W, P)
 
 

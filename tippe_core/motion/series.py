@@ -82,7 +82,7 @@ def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
     The first `rates` rows belong to derivatives; divided by k they become those of the functions themselves. K is large
     enough for all rows to have converged; 0 if they do not within the harmonics that the midpoints resolve.
     """
-    most, count = int(np.pi / np.diff(tau).max()), 8
+    most, count = int(np.pi / (tau[1:] - tau[:-1]).max()), 8
     while count < most:
         count = min(2 * count, most)
         found = transform(tau, even, odd, count + 1)[:, 1:]
@@ -125,7 +125,7 @@ def of_time(dt_deta: Array, dkappa_deta: Array) -> tuple[Array, Array]:
     c, none = cosine_coefficients(dt_deta), np.zeros((1, 0))
     if not resolved(c):
         return none, none
-    return c, harmonics(integral(c[0]) * (2 / c[0, 0]), 2 / n * dkappa_deta, dkappa_deta[:0], 1)
+    return c, harmonics(integral(c[0]) * (2 / c[0, 0]), 2 / n * dkappa_deta, none[:0], 1)
 
 
 # ---- sums ----
