@@ -197,7 +197,8 @@ def test_a_control_is_told_only_what_answers_its_last_wish(alone):
     page.get_by_role("alert").get_by_text("not a number").wait_for()
     assert field.input_value() == "half"
     page.get_by_role("button", name="Back to 6.4").click()
-    found.until(lambda: asked[-1] == ("K_J", 6.4, False))
+    page.get_by_role("alert").wait_for(state="hidden")
+    assert field.input_value() == "6.4" and len(asked) == 2  # no motion was made of a text
 
 
 def test_a_typed_number_is_sent_as_typed_and_escape_brings_back_what_was(alone):
