@@ -10,7 +10,7 @@ from app.model.measured.data import Data, settled
 from app.model.measured.examples import EXAMPLES, FILMED, FOLDER, example
 from app.model.measured.motion import Model
 from app.model.measured.remembered import checked, stored_fit
-from app.model.measured.table import read
+from app.model.measured.table import Table, read
 from app.model.measured.work import Found, found, found_again, models
 from tippe_core import Top
 
@@ -19,8 +19,14 @@ LAW = "contensou"
 STORED = FOLDER / "fits.json"
 
 
+@lru_cache(maxsize=len(EXAMPLES))
+def table_of_example(name: str) -> Table:
+    """The Table of an example; cached, because a class may open it at once."""
+    return read((FOLDER / f"made-{name}.csv").read_bytes())
+
+
 def _wanted(name: str, law: str, loose: tuple[str, ...]) -> tuple[Data, tuple[Model, Model]]:
-    data = settled(read((FOLDER / f"made-{name}.csv").read_bytes()))
+    data = settled(table_of_example(name))
     return data, models(Top.paper(), FILMED.scales, FILMED, law, loose)
 
 

@@ -1,15 +1,15 @@
 """The tab Measure: measurements of a filmed top beside fitted rolling and sliding motions."""
 
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 
 from app.model.bodies import body, outline
 from app.model.measured.cells import MeasuredError
 from app.model.measured.data import settled
-from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
+from app.model.measured.examples import EXAMPLES, FILMED
 from app.model.measured.film import Film, opened, unpacked, written
 from app.model.measured.kept import kept
-from app.model.measured.made import LAW, found_of_example, is_stored
+from app.model.measured.made import LAW, found_of_example, is_stored, table_of_example
 from app.model.measured.remembered import stored_fit
 from app.model.measured.shown import placed
 from app.model.measured.table import read
@@ -33,13 +33,6 @@ from app.widgets.hold import held
 from tippe_core import Top, TopError
 
 FIRST = EXAMPLES[0]
-
-
-@cache
-def _example(name):
-    """(its Film, its Table), the same for all pages: a class opens the room at once."""
-    text = (FOLDER / f"made-{name}.csv").read_bytes()
-    return opened(text), read(text)
 
 
 class Measure:
@@ -155,7 +148,7 @@ class Measure:
     def take_example(self, name):
         """Loads one of EXAMPLES, with default settings."""
         self._choose(LAW, ())
-        self._open(*_example(name), example=name)
+        self._open(None, table_of_example(name), example=name)
 
     def take(self, text, each=1, name="", link=""):
         """Loads a table, bytes or text, in place of all that came of the one before. If it cannot be read, that one
