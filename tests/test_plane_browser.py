@@ -261,8 +261,9 @@ def test_a_finger_pulls_the_tieline_and_elsewhere_it_scrolls_or_taps(figure):
     found.until(lambda: hands(found) and hands(found)[-1][2] < 6.5)
     assert hands(found)[-1][0] == "line" and found.page.evaluate("document.querySelector('main').scrollTop") == 0
     count, (x, y) = len(hands(found)), found.pixel(1.6, 5)
+    found.page.evaluate("document.querySelector('main').addEventListener('scrollend', () => window.rests = true)")
     touch(found.page, *((x, y - by) for by in range(0, 121, 10)))
-    found.page.wait_for_function("document.querySelector('main').scrollTop > 40")
+    found.page.wait_for_function("window.rests && document.querySelector('main').scrollTop > 40")
     assert len(hands(found)) == count
     found.page.evaluate_handle("__tippe.plane.bar").evaluate(IN_SIGHT)  # until it has stopped
     touch(found.page, found.pixel(2, 5))
