@@ -254,13 +254,13 @@ def common_shape(name: str, allowed: str, *values: ArrayLike) -> tuple[int, ...]
         raise TopError(name, ", ".join(map(str, shapes)), allowed, code="shapes-differ") from None
 
 
-def numbers(name: str, values: ArrayLike, finite: bool = True) -> Array:
-    """values as a new float array, or a TopError that names them; finite: reject nan and infinity."""
+def numbers(name: str, values: ArrayLike, finite: bool = True, kinds: str = "iuf") -> Array:
+    """values as a new float array, or a TopError that names them; finite: reject nan and infinity; kinds: of dtypes."""
     try:
         array = np.array(values)
     except (TypeError, ValueError, OverflowError):
         array = np.array("")
-    if array.dtype.kind not in "iuf":
+    if array.dtype.kind not in kinds:
         raise TopError(name, values, "finite numbers", code="not-finite")
     array = array.astype(float)
     if finite and not np.all(np.isfinite(array)):

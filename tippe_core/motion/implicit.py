@@ -68,7 +68,7 @@ FEEDS = np.array([0, 1, 2, 3, 5, 6, 7, 8, 9, 14])  # the components on which the
 STIFF = 4.0  # relaxation times of the slip in a step; those of stepper.py are stable up to about 6
 CREEPING_SLIP = 1e-3  # ((gR)^1/2): slip above which implicit steps are hardly longer than others
 DIFFERENCE, OF_SIGMA = 1e-8, 1e-4  # the changes of z, and of sigma, for a difference quotient
-SLIP_TOLERANCE = 1e-2  # of sigma and n at most
+SLIP_TOLERANCE = 1e-4  # of sigma and n at most
 TOLERANCE = 5e-9  # the least tolerance of an implicit step
 
 
@@ -89,13 +89,15 @@ def slowest_patch(w_z: float, modes: Modes, P: Record, C: Record) -> tuple[int, 
 
 
 def is_stiff(W: Record, P: Record, h: float) -> bool:
-    """Whether stability would limit the steps of stepper.py, after a step of length h to step.new. If the ball sticks,
+    """Whether stability or the tolerance of v would limit steps of stepper.py, after one of length h to step.new. If the ball sticks,
     the slip of the stem has one direction only, and nothing relaxes."""
     S, C, modes = W.step, W.contacts, modes_of(W)
     if modes[BALL] == STICK:
         return False
     w_z = turning(S.new, P)[1][2]
     W.creeps, slip, fastest = slowest_patch(w_z, modes, P, C)
+    if slip < min(S.scale[at.VX], CREEPING_SLIP):  # less than what a step of stepper.py may change it by
+        return True
     return slip < CREEPING_SLIP and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * fastest > STIFF
 
 

@@ -223,7 +223,8 @@ def _cells(name: str, given: Any, kind: Any) -> NDArray[np.object_]:
         wanted = " | ".join(f"{kind.__name__} with {', '.join(names)}" for kind, names in missing.items())
         raise TopError(name, type(given).__name__, wanted, code="wrong-kind")
     kind, names = found[0], has[found[0]]
-    arrays = {field: numbers(field, getattr(given, field), finite=False) for field in names}
+    arrays = {field: numbers(field, getattr(given, field), False, "biuf" if field == "pivots" else "iuf")
+              for field in names}  # fmt: skip
     shape = common_shape(name, "fields that broadcast together", *arrays.values())
     columns = (np.broadcast_to(array, shape).ravel().tolist() for array in arrays.values())
     return _objects([_possible(kind, arrays, row) for row in zip(*columns, strict=True)], shape)

@@ -285,6 +285,8 @@ def patch_comes_to_rest(W: Record, P: Record, before: float) -> Event:
                 rates(y, NO_ONE, modes, P, C, W.step.K[0])
                 for k in range(16):
                     y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
+                arrange(y, NO_ONE, modes, P, C)
+                y[at.VZ], y[at.Z] = C.G[2], C.G[3]  # still on the table, which a straight line leaves
                 halted(y, rest, P, C)
                 return (HALTS if holds else SLIPS), i
     return NONE, BALL

@@ -140,7 +140,8 @@ class Trajectory:
                                   if isinstance(value := getattr(self, field.name), np.ndarray)}  # fmt: skip
         if not len(arrays["t"]):
             raise TopError("rows", rows, "rows with at least one instant", code="no-rows")
-        last = np.inf if arrays["t"][-1] == self.t[-1] else arrays["t"][-1]
+        latest = arrays["t"].max()
+        last = np.inf if latest == self.t.max() else latest
         events, supports, notes = (tuple(x for x in each if x[0] <= last)
                                    for each in (self.events, self.supports, self.notes))  # fmt: skip
         return replace(self, events=events, supports=supports, notes=notes, **arrays)
@@ -168,7 +169,9 @@ class Trajectory:
                        notes=notes)  # fmt: skip
 
     def at(self, t: float) -> State:
-        """The State at one time: linear between the two nearest instants.
+        """The State at one time: linear between the two nearest instants, whose angles must not differ by a turn.
+
+        Between two of them theta can pass 0 or pi, where phi and psi change by pi at once; then only denser times help.
 
         Parameters
         ----------
@@ -195,7 +198,7 @@ class Trajectory:
         theta, w1, w2, w3, phi, psi, x, y, z, vx, vy, vz = (
             float(np.interp(t, times, each)) for each in columns[in_time].T
         )
-        on = [name for since, name in self.supports if since <= t][-1]
+        on = [name for since, name in self.supports if since <= t or since == self.supports[0][0]][-1]
         flight = {"z": z, "vz": vz} if on == "none" else {}
         return State(theta, w1, 0.0 if theta in (0.0, np.pi) else w2, w3, phi, psi, x, y, vx, vy, **flight)
 
