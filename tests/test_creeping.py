@@ -264,7 +264,7 @@ def test_no_energy_comes_from_a_patch_that_starts_to_slide():
 
 
 def test_a_tiny_patch_starts_to_slide_without_a_kick():
-    """The torque that held it is far above what it can bear: the change was by that ratio too large, and gained 0.05."""
+    """The torque that held it is far above what it can bear: the change was too large by that, and gained 0.05."""
     state = State(1.8181672215169036, 0.02842366786242766, 0.14424413069158581, 0.33887182446751596,
                   vx=-0.29175334181585766, vy=-0.02494381882837499)  # fmt: skip
     moved = slide(Top(-0.5, 1.2, 0.6), state, Contensou(0.3, 1.33e-4), [0, 1.5, 1.7])

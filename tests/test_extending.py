@@ -72,11 +72,21 @@ def test_a_change_is_small(diff):
     assert 0 < len(changed) <= 60 and 0 < diff.count("\n+++ ") <= 3
 
 
-@pytest.mark.long
-def test_all_of_them_work_in_a_copy(tmp_path):
+@pytest.fixture
+def extended(tmp_path):
+    """A copy of the package with all of them."""
     shutil.copytree(ROOT / "tippe_core", tmp_path / "tippe_core", ignore=shutil.ignore_patterns("__pycache__"))
     alone = os.environ | {"GIT_CEILING_DIRECTORIES": str(tmp_path.parent)}  # not as a part of a repository around it
     for diff in DIFFS:
         subprocess.run(["git", "apply", "-"], input=diff, text=True, cwd=tmp_path, check=True, env=alone)
-    path = os.pathsep.join([str(tmp_path), str(ROOT / "tests")])
-    subprocess.run([sys.executable, "-c", EXTENDED], cwd=tmp_path, env=os.environ | {"PYTHONPATH": path}, check=True)
+    return tmp_path
+
+
+def test_all_of_them_apply_to_the_package_as_it_is(extended):
+    assert "FARTHEST = 2.0" in (extended / "tippe_core/motion/contacts.py").read_text(encoding="utf-8")
+
+
+@pytest.mark.long
+def test_all_of_them_work_in_a_copy(extended):
+    path = os.pathsep.join([str(extended), str(ROOT / "tests")])
+    subprocess.run([sys.executable, "-c", EXTENDED], cwd=extended, env=os.environ | {"PYTHONPATH": path}, check=True)

@@ -167,7 +167,7 @@ def let_patch_go(y: Array, modes: Modes, i: int, P: Record, C: Record) -> None:
     most, twists = bounds(P.law)
     F, M, N = (C.F[i, 0], C.F[i, 1]), C.M[i, 2], abs(C.F[i, 2]) + SLACK
     q, slip, spin = moving(y, i, P, C), np.hypot(F[0], F[1]) / (most * N), M / (twists * N) if P.law.pivots else 0.0
-    size = NUDGE / max(slip, abs(spin), 1.0)  # what held it can be far above the limits, the torque of a small patch too
+    size = NUDGE / max(slip, abs(spin), 1.0)  # what held it can be far above the limits, as the torque of a small patch
     F_size, turn = size / (most * N), min(size / P.law.radius, TURN)
     change = (q[0] + F_size * F[0], q[1] + F_size * F[1], q[2], q[3] + turn * spin)
     give_impulse(y, i, held(mobility(i, i, y, P, C), change, P.law), P, C)

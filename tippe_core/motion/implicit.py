@@ -89,14 +89,14 @@ def slowest_patch(w_z: float, modes: Modes, P: Record, C: Record) -> tuple[int, 
 
 
 def is_stiff(W: Record, P: Record, h: float) -> bool:
-    """Whether stability or the tolerance of v would limit steps of stepper.py, after one of length h to step.new. If the ball sticks,
-    the slip of the stem has one direction only, and nothing relaxes."""
+    """Whether stability would limit the steps of stepper.py, or they may change v by more than the slip, after one of
+    length h to step.new. If the ball sticks, the slip of the stem has one direction only, and nothing relaxes."""
     S, C, modes = W.step, W.contacts, modes_of(W)
     if modes[BALL] == STICK:
         return False
     w_z = turning(S.new, P)[1][2]
     W.creeps, slip, fastest = slowest_patch(w_z, modes, P, C)
-    if slip < min(S.scale[at.VX], CREEPING_SLIP):  # less than what a step of stepper.py may change it by
+    if slip < min(S.scale[at.VX], CREEPING_SLIP):
         return True
     return slip < CREEPING_SLIP and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * fastest > STIFF
 
