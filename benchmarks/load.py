@@ -622,3 +622,15 @@ if __name__ == "__main__":
 #
 # Ten who open another room each 2 s: p95 119, longest 191, /liveness 111. Met: 4 s for 20, the ten. Missed: 15 s for
 # 100 in Maps and Measure, p95 250 but for Build, /liveness 500 in Maps and where 100 open Measure.
+#
+# 2026-11-29, 14:04, nothing else running, on a machine that was a third slower than in the morning (the same tests took
+# 580 s instead of 389), rooms, with Measure's example read once for a server; columns as above:
+#
+#   Build     2.4 171 172    14.0 363  536
+#   Families  2.6 223 255    12.5 319  761
+#   Learn     2.7 410 177    12.2 286  415
+#   Maps      4.6 660 830    21.8 603  709
+#   Measure   5.1 437 479    23.8 471 1103
+#
+# Ten who open another room each 2 s: p95 217, longest 319, /liveness 215. By the processor, alone: Maps 103 ms, Measure
+# 162, Learn 80 a page.
