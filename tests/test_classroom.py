@@ -108,6 +108,7 @@ def test_a_file_that_is_busy_for_a_moment_is_waited_for(tmp_path, monkeypatch):
 
     monkeypatch.setattr(sqlite3, "connect", lambda *_, **__: SimpleNamespace(execute=execute))
     Sqlite(tmp_path / "votes.sqlite")._open()
+    assert next(once, None) is None  # it was raised
 
 
 def test_a_class_goes_from_question_to_question_and_back(workers, clock):

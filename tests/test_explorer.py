@@ -149,7 +149,9 @@ def test_the_face_shown_changes_nothing(explorer):
 
 
 @pytest.mark.parametrize("given", ["hand", "share", "state"])
-@pytest.mark.parametrize(("name", "value"), [("I3", 2.0), ("K_J", 1e9), ("K_J", "seven"), ("energy", "much")])
+@pytest.mark.parametrize(("name", "value"), [
+    ("I3", 2.0), ("K_J", 1e9), ("K_J", "seven"), ("energy", "much"), ("mu_s", -1.0),
+])  # fmt: skip
 def test_to_go_back_from_what_is_refused_changes_nothing(given, name, value):
     """A start by hand stays one, though its constants are only as they follow."""
     explorer = Explorer(given=given)
@@ -160,6 +162,20 @@ def test_to_go_back_from_what_is_refused_changes_nothing(given, name, value):
         controls.numbers.view.request = [number, name, wish, wish == value]
         assert bool(json.loads(controls.numbers.view.state)["messages"]) == (wish == value)
     assert not explorer.scene.messages and inputs_of(explorer) == before and explorer.start == good
+
+
+def test_to_go_back_undoes_nothing_else():
+    explorer = Explorer()
+    controls = Controls(explorer.scene, explorer.set, lambda: explorer.back)
+    explorer.param.watch(lambda event: controls.show(event.new), "scene")
+    explorer.set(K_J=1e9)
+    explorer.set(table="ice", mu=0.2, solve=False)
+    controls.numbers.view.request = [1, "K_J", "seven", True]
+    controls.numbers.view.request = [2, "I1", "one", True]
+    controls.numbers.view.request = [3, "I1", explorer.scene.top.I1, False]
+    assert [*explorer.scene.messages] == ["K_J"]  # still refused: I1 alone was gone back to
+    controls.numbers.view.request = [4, "K_J", explorer.scene.constants.K_J, False]
+    assert not explorer.scene.messages and (explorer.table, explorer.mu) == ("ice", 0.2)
 
 
 def test_a_steady_precession_is_said_to_stay_and_another_motion_to_go_from_one_tilt_to_another(explorer):

@@ -17,6 +17,7 @@ from app.model.lab.lab import Lab
 from app.model.run import whole_on
 from app.model.runs import Runs
 from app.model.setup import TOYS, start_of
+from app.model.start import arrives
 from app.model.story import story
 from tippe_core import Contensou
 
@@ -71,6 +72,13 @@ def test_to_go_back_from_what_cannot_be_changes_nothing(given, name, value):
     assert lab.scene.motions is scene.motions
     lab.ask(**{name: lab.value(name)})
     assert lab.explorer.given == "hand"  # it was set, and not gone back to
+
+
+def test_one_can_go_back_to_what_no_hand_could_set():
+    lab = lab_of(Explorer(**(arrives() | {"spin": 200.0})))
+    lab.ask(spin=1e9)
+    lab.ask(spin=200.0)
+    assert not lab.scene.messages and lab.explorer.spin == 200.0
 
 
 @pytest.mark.parametrize("given", ["hand", "share"])

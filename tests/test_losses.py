@@ -56,7 +56,7 @@ def test_a_patch_without_extent_is_coulombs_point():
     point, patch = (slide(PAPER, state, law, times) for law in (Coulomb(0.4), Contensou(0.4, 0.0)))
     assert point.events == patch.events and point.events
     np.testing.assert_array_equal(point.theta, patch.theta)
-    small = slide(PAPER, state, Contensou(0.4, 1e-6), times[:20], rtol=1e-10)
+    small = slide(PAPER, state, Contensou(0.4, 1e-5), times[:20], rtol=1e-10)
     np.testing.assert_allclose(small.theta, point.theta[:20], rtol=0, atol=1e-5)
 
 

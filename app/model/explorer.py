@@ -53,8 +53,10 @@ class Explorer(param.Parameterized):
 
     @property
     def back(self) -> dict[str, Any]:
-        """What sets the start back to the last one that is possible."""
-        return self._possible.put_back
+        """What sets a start that cannot roll back to the one before it; whatever else was changed meanwhile stays."""
+        before, pushes = self._possible, self.start.pushes or self._possible.pushes
+        names = "shape", "a", "I1", "I3", "given", "mu_s", *GIVEN[before.given]
+        return {name: before.inputs[name] for name in names} | {"pushes": pushes}
 
     def settle(self) -> None:
         """Solves what set() has postponed."""

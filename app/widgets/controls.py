@@ -84,6 +84,7 @@ class Controls(param.Parameterized):
     def __init__(self, scene, ask, back=dict):
         super().__init__()
         self._scene, self._ask, self._back = scene, ask, back
+        self._refused = set()  # the controls that show an error
         self._used = None  # the last control that was used: it shows the error if the motion is impossible
         self.numbers = Numbers(self._parts(), self._request)
         self.param.watch(lambda event: self.show(self._scene), "face")
@@ -114,7 +115,7 @@ class Controls(param.Parameterized):
             self._ask(**{name: PICTURES[name][value]})
             return
         self._used = name
-        if self._scene.messages and value == values_of(self._scene)[name]:
+        if not typed and name in self._refused and value == values_of(self._scene)[name]:
             self._ask(**self._back())
         elif name in FACES["state"]:
             self._ask(**{name: value}, given="state")
@@ -131,6 +132,7 @@ class Controls(param.Parameterized):
         hidden = [name for face, names in FACES.items() if face != self.face for name in names]
         near = FACES[self.face][0] if self._used in {None, *hidden} else self._used
         at = {name: near if name in hidden else name for name in scene.messages}
+        self._refused = {*at.values()}
         values = values_of(scene)
         for name, options in PICTURES.items():
             values[name] = next(key for key, value in options.items() if value == scene.inputs[name])

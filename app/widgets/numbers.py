@@ -92,7 +92,8 @@ class Numbers:
         elif not (typed and isinstance(wish, str)):
             wish = validate.number(wish)
         self._answered = int(count)
-        goes_back = name in self._wrong and not self._state["messages"] and wish == self._state["values"][name]
+        is_text = name in self._wrong and name not in self._state["messages"]  # which is all that was refused
+        goes_back = is_text and not typed and wish == self._state["values"][name]
         self._wrong.clear()
         if isinstance(wish, str) and name in self._numbers:
             self._wrong[name] = wish

@@ -25,7 +25,6 @@ from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping
 STILL, SLACK, TOUCH, LEAST_MINOR = 1e-13, 1e-10, 1e-11, 1e-6
 FALLS = 1e-12  # ((gR)^1/2): a closed contact that moves down more slowly is at rest
 NUDGE = 1e-8  # ((gR)^1/2): the slip with which a patch starts to slide; far above the errors of steps
-TURN = 1e-4  # ((g/R)^1/2): the most spin with which it does, also if it is tiny: hardly any energy
 SINKS = 1e-6  # (g): an open contact that accelerates downwards faster than this would have to carry
 LOG_STILL = float(np.log(STILL))
 DIRECTIONS = 64
@@ -166,10 +165,11 @@ def let_patch_go(y: Array, modes: Modes, i: int, P: Record, C: Record) -> None:
     forces(arrange(y, NO_ONE, modes, P, C), modes, P, C)
     most, twists = bounds(P.law)
     F, M, N = (C.F[i, 0], C.F[i, 1]), C.M[i, 2], abs(C.F[i, 2]) + SLACK
-    q, slip, spin = moving(y, i, P, C), np.hypot(F[0], F[1]) / (most * N), M / (twists * N) if P.law.pivots else 0.0
-    size = NUDGE / max(slip, abs(spin), 1.0)  # what held it can be far above the limits, as the torque of a small patch
-    F_size, turn = size / (most * N), min(size / P.law.radius, TURN)
-    change = (q[0] + F_size * F[0], q[1] + F_size * F[1], q[2], q[3] + turn * spin)
+    q, pull, twist = moving(y, i, P, C), np.hypot(F[0], F[1]) / (most * N), 0.0
+    if P.law.pivots:
+        twist = M / (twists * N)
+    size = NUDGE / max(pull, abs(twist), 1.0)  # far above the limits at times, as the torque of a small patch
+    change = (q[0] + size * F[0] / (most * N), q[1] + size * F[1] / (most * N), q[2], q[3] + size / P.law.radius * twist)
     give_impulse(y, i, held(mobility(i, i, y, P, C), change, P.law), P, C)
 
 

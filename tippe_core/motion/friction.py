@@ -19,7 +19,7 @@ from ..types import Number
 COULOMB, VISCOUS, SMOOTHED, CONTENSOU = range(4)
 SERIES = 9.0  # (u/(radius omega_n))^2 above which the closed forms lose more digits than the series in 1/q^2
 LEAST = 1e-300  # radius omega_n below which its inverse would overflow: counts as no spin
-LEAST_PATCH = 1e-8  # (R): a smaller patch is less than an atom wide, and counts as a point
+LEAST_PATCH = 1e-5  # (R): smaller patches, of less than 0.2 um for a toy, count as points, which they resemble to 1e-5
 STEEP = 1e8  # k above which linear equations leave the slip out: its share is 1/k, and rounding adds 1e-16 k
 
 
@@ -171,7 +171,7 @@ class Contensou(_Friction):
     mu : float
         coefficient of friction, > 0
     radius : float
-        of the patch, in R; 0, or less than 1e-8, is Coulomb(mu)
+        of the patch, in R; 0, or less than 1e-5, is Coulomb(mu)
     pivots : bool
         False leaves T out, for experiments
 
@@ -188,7 +188,7 @@ class Contensou(_Friction):
     def __post_init__(self) -> None:
         self._positive("mu")
         self._positive("radius", zero=True)
-        if np.ndim(self.pivots) or self.pivots not in (True, False):
+        if not isinstance(self.pivots, bool | np.bool_ | int | float) or self.pivots not in (True, False):
             raise TopError("pivots", self.pivots, "True | False", code="wrong-kind")
 
     def __repr__(self) -> str:

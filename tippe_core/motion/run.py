@@ -283,10 +283,11 @@ def patch_comes_to_rest(W: Record, P: Record, before: float) -> Event:
             holds = together or contacts.may_stick(y, rest, i, P, C)
             if holds or speeds[i] < contacts.NUDGE / 4:
                 rates(y, NO_ONE, modes, P, C, W.step.K[0])
-                for k in range(16):
-                    y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
-                arrange(y, NO_ONE, modes, P, C)
-                y[at.VZ], y[at.Z] = C.G[2], C.G[3]  # still on the table, which a straight line leaves
+                if modes[BALL] == OPEN or modes[STEM] == OPEN:  # a straight line would lift one of two off the table
+                    for k in range(16):
+                        y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
+                    arrange(y, NO_ONE, modes, P, C)
+                    y[at.VZ], y[at.Z] = C.G[2], C.G[3]
                 halted(y, rest, P, C)
                 return (HALTS if holds else SLIPS), i
     return NONE, BALL

@@ -51,8 +51,8 @@ def slide(
         in (R/g)^1/2, not decreasing
     rtol : float
         1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy. While a top turns over,
-        in 900 (R/g)^1/2, C_J changes by about 4 rtol C_J. Creep (implicit.py): 5e-9 at least, and 1e-4 of the slip's
-        direction, so that energy and heat together change by about 1e-6 of the heat
+        in 900 (R/g)^1/2, C_J changes by about 4 rtol C_J. Creep (implicit.py): 5e-9 at least; the slip's
+        direction has 1e-4, so that energy and heat together change by about 1e-6 of the heat
     landing : str
         "plastic": a top that leaves the table flies and lands without a bounce. "stop": the motion ends when it
         lifts off

@@ -168,10 +168,11 @@ class Lab(param.Parameterized):
         """Sets the inputs that are valid; each of the others keeps its value, and the scene's messages say why. A new
         toy, spin, tilt or slip makes the start one by hand; to go back from one that was refused changes nothing."""
         goes_back = inputs.keys() <= self._messages.keys() and all(inputs[name] == self.value(name) for name in inputs)
+        inputs = {} if goes_back else inputs
         faults = {name: fault(name, value) for name, value in inputs.items()}
         self._messages, self.refused = {name: wording for name, wording in faults.items() if wording}, {}
         self.nearest = {name: near for name in self._messages if (near := nearest(name, inputs[name])) is not None}
-        found: dict[str, Any] = {name: value for name, value in inputs.items() if not (faults[name] or goes_back)}
+        found: dict[str, Any] = {name: value for name, value in inputs.items() if not faults[name]}
         if BY_HAND & found.keys():
             found["given"] = "hand"
         if "toy" in found:

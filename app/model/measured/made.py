@@ -21,8 +21,11 @@ STORED = FOLDER / "fits.json"
 
 @lru_cache(maxsize=len(EXAMPLES))
 def table_of_example(name: str) -> Table:
-    """The Table of an example; cached, because a class may open it at once."""
-    return read((FOLDER / f"made-{name}.csv").read_bytes())
+    """The Table of an example, one for all pages: a class may open it at once."""
+    table = read((FOLDER / f"made-{name}.csv").read_bytes())
+    for each in table.columns:
+        each.values.setflags(write=False)
+    return table
 
 
 def _wanted(name: str, law: str, loose: tuple[str, ...]) -> tuple[Data, tuple[Model, Model]]:
