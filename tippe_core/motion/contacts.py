@@ -169,7 +169,8 @@ def let_patch_go(y: Array, modes: Modes, i: int, P: Record, C: Record) -> None:
     if P.law.pivots:
         twist = M / (twists * N)
     size = NUDGE / max(pull, abs(twist), 1.0)  # far above the limits at times, as the torque of a small patch
-    change = (q[0] + size * F[0] / (most * N), q[1] + size * F[1] / (most * N), q[2], q[3] + size / P.law.radius * twist)
+    slip = size / (most * N)
+    change = q[0] + slip * F[0], q[1] + slip * F[1], q[2], q[3] + size / P.law.radius * twist
     give_impulse(y, i, held(mobility(i, i, y, P, C), change, P.law), P, C)
 
 
