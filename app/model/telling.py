@@ -21,8 +21,8 @@ def told(scene: LabScene) -> dict[str, Any]:
     Of each table: "refused", why it has no run, else ""; "ended", the event that ended it early, else ""; "caption";
     "a"; "part", what touches besides the ball, "stem" or "rim", or "none"; "gripped", the share of its energy above
     the least that the rough table takes; "samples": lists of t (s), tilt (degrees), spin (rev/s), support, regime and
-    kinetic (MgR); "supports": (from s, what carries it), exact; "phases": kind, from, to (s), headline and why; "events": (t, word);
-    "kept": {quantity: kind, first, last, said}, from the start to the end.
+    kinetic (MgR); "supports": (from s, what carries it), exact; "phases": kind, from, to (s), headline and why;
+    "events": (t, word); "kept": {quantity: kind, first, last, said}, from the start to the end.
     """
     tables = {name: _table(motion) for name, motion in scene.motions.items() if motion}
     none = {name: {"refused": why} | EMPTY for name, why in scene.refused.items()}
