@@ -30,6 +30,7 @@ def one_page():
 
 def all_busy():
     """Keeps every thread busy with the work of another visitor, until end()."""
+    until(lambda: not WORK._working.total())  # of a test before
     go, pages = threading.Event(), [Page() for _ in range(WORK.threads)]
     for page in pages:
         page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None), "a")
