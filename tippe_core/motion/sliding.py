@@ -52,7 +52,8 @@ def slide(
     rtol : float
         1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy. While a top turns over,
         in 900 (R/g)^1/2, C_J changes by about 4 rtol C_J. Creep (implicit.py): 5e-9 at least; the slip's
-        direction has 1e-4, so that energy and heat together change by about 1e-6 of the heat
+        direction has 1e-4, so that energy and heat together change by about 1e-6 of the heat. With a patch below
+        2e-4 R that creeps they change by more, at rtol above 1e-9 by up to half of it: compare a second rtol
     landing : str
         "plastic": a top that leaves the table flies and lands without a bounce. "stop": the motion ends when it
         lifts off
