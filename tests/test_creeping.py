@@ -251,7 +251,7 @@ def starts_that_roll(count, seed):
     rng = np.random.default_rng(seed)
     for i in range(count):
         top = (Top(-0.5, 1.2, 0.6), Top.paper(), Top(0.2, 0.8, 0.7))[i % 3]
-        state = State(rng.uniform(0.2, 2.9), *(rng.normal() * [0.3, 0.5, 0.6][j] for j in range(3)))
+        state = State(rng.uniform(0.2, 2.9), *(rng.normal(size=3) * [0.3, 0.5, 0.6]))
         yield top, grip(top, state)[0], np.exp(rng.uniform(np.log(1e-5), np.log(1e-2)))
 
 

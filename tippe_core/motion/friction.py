@@ -198,7 +198,7 @@ class Contensou(_Friction):
     def law(self) -> Law:
         """In the form that kernels use."""
         if self.radius < LEAST_PATCH:
-            return Law(COULOMB, self.mu, self.mu, 0.0, 0.0, False)
+            return Coulomb(self.mu).law
         return Law(CONTENSOU, self.mu, self.mu, 0.0, self.radius, bool(self.pivots))
 
 

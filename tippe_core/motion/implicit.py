@@ -96,9 +96,8 @@ def is_stiff(W: Record, P: Record, h: float) -> bool:
         return False
     w_z = turning(S.new, P)[1][2]
     W.creeps, slip, fastest = slowest_patch(w_z, modes, P, C)
-    if 0.0 < slip < min(S.scale[at.VX], CREEPING_SLIP):
-        return True
-    return slip < CREEPING_SLIP and h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * fastest > STIFF
+    relaxes = h * (1.0 if W.implicit else time_scale(modes, w_z, P, C)) * fastest
+    return slip < CREEPING_SLIP and (relaxes > STIFF or 0.0 < slip < S.scale[at.VX])
 
 
 def to_direction(W: Record, P: Record) -> None:

@@ -11,7 +11,7 @@ from ..paper.constants import CLOSED, State
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector
 from . import at
-from .contacts import settle
+from .contacts import known, settle
 from .dynamics import arrange, turning
 from .friction import Friction
 from .kinds import NONE, STARTS, TOUCHES, Event
@@ -191,7 +191,7 @@ def lower(P: Record, theta: float) -> int:
 def on_table(W: Record, P: Record, i: int) -> None:
     """Sets v_z and z in W.y so that contact i is on the table."""
     arrange(W.y, NO_ONE, (SLIP, OPEN) if i == BALL else (OPEN, SLIP), P, W.contacts)
-    W.y[at.VZ], W.y[at.Z] = W.contacts.G[2], W.contacts.G[3]
+    known(W.y, W.contacts)
 
 
 @compiled

@@ -287,7 +287,7 @@ def patch_comes_to_rest(W: Record, P: Record, before: float) -> Event:
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, at.TIME]
                     arrange(y, NO_ONE, modes, P, C)
-                    y[at.VZ], y[at.Z] = C.G[2], C.G[3]
+                    contacts.known(y, C)
                 halted(y, rest, P, C)
                 return (HALTS if holds else SLIPS), i
     return NONE, BALL

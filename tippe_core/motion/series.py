@@ -82,7 +82,7 @@ def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
     The first `rates` rows belong to derivatives; divided by k they become those of the functions themselves. K is large
     enough for all rows to have converged; 0 if they do not within the harmonics that the midpoints resolve.
     """
-    most, count = int(np.pi / (tau[1:] - tau[:-1]).max()), 8
+    most, count = int(np.pi / (tau[1:] - tau[:-1]).max()), 8  # np.diff would be compiled besides
     while count < most:
         count = min(2 * count, most)
         found = transform(tau, even, odd, count + 1)[:, 1:]

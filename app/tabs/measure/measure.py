@@ -165,6 +165,7 @@ class Measure:
         self._open(film, table, each, name=name, link=link)
 
     def _open(self, film, table, each=1, example="", name="", link=""):
+        """Shows a Table, and the Film that it is of or None, in place of all that came of the one before."""
         self._clear()
         self._thinned, self._example, self._read, self._of_file, self._name = each, example, table, film, name
         self._say_top()
